@@ -4,6 +4,7 @@
 //! How a pose follows a change of the data, and the effect of a change on a rank, is computed in
 //! `solvability`.
 
+mod displaced;
 mod gradients;
 
 use std::ops::Range;

@@ -85,7 +85,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     let mut s = mechanism.scratch();
     let mut q = closest(mechanism, &mut s, (&rows, &weights), &described, size)?;
     initialise(mechanism, &q);
-    check_requirements(mechanism, &q)?;
+    requirement(mechanism, &q)?;
     let mut correction = mechanism.difference_of(&q, &described);
     if options.correction == CorrectionLimit::Small {
         check_correction(mechanism, &correction, size, || {
@@ -98,7 +98,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
         let rows: Vec<usize> = (0..mechanism.layout().m).collect();
         q = closest(mechanism, &mut s, (&rows, &weights), &posed, size)?;
         mechanism.settle_angles(&mut q);
-        check_requirements(mechanism, &q)?;
+        requirement(mechanism, &q)?;
         correction = mechanism.difference_of(&q, &posed);
         // A body without a pose of its own follows the others.
         let columns = |pose: &StartPose| mechanism.space().columns_of(pose.body);
@@ -141,7 +141,11 @@ fn posed(mechanism: &Mechanism, poses: &[StartPose], q: &[f64]) -> Result<Vec<f6
     Ok(posed)
 }
 
-fn check_requirements(mechanism: &Mechanism, q: &[f64]) -> Result<(), StartError> {
+/// Whether the requirements of all definitions hold at a configuration.
+///
+/// # Errors
+/// [`StartError::Requirement`]: the first that does not.
+pub fn requirement(mechanism: &Mechanism, q: &[f64]) -> Result<(), StartError> {
     match unmet_requirement(mechanism, q) {
         Some((name, requirement)) => Err(StartError::Requirement { name, requirement }),
         None => Ok(()),

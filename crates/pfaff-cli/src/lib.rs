@@ -20,6 +20,7 @@ mod simulate;
 mod start;
 mod sweep;
 mod template;
+mod tolerance;
 mod view;
 mod watch;
 pub mod work_precision;
@@ -149,6 +150,7 @@ impl CommandLine for Arguments {
             Command::Simulate(a) => simulate::run(a, console),
             Command::Plan(a) => plan::run(a, console),
             Command::Sweep(a) => sweep::run(a, console),
+            Command::Tolerance(a) => tolerance::run(a, console),
             Command::WorkPrecision(a) => work_precision::run(a, console),
             Command::Check(a) => check::run(a, console),
             Command::Linearise(a) => linearise::run(a, console),

@@ -15,6 +15,7 @@
 //! | [`along_motion`] | the verdicts along its motion |
 //! | [`difference`] | comparison of two scenes |
 //! | [`mod@sweep`] | many runs with different numbers |
+//! | [`mod@tolerance`] | many mechanisms with data within their tolerances |
 //! | [`mod@work_precision`] | error against run time |
 //! | [`memory`] | estimated memory |
 //! | [`error`] | reasons why there are no results |
@@ -33,6 +34,7 @@ mod report_builder;
 mod spread;
 pub mod study;
 pub mod sweep;
+pub mod tolerance;
 pub mod work_precision;
 
 pub use dynamics;

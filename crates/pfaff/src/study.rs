@@ -339,7 +339,8 @@ impl Study {
         Some(format!("this mechanism cannot be moved: {}", failure.error))
     }
 
-    fn state_at(&self, t: f64) -> Result<State, StudyError> {
+    /// The state at a time of the motion; at t = 0 no run is needed.
+    pub(crate) fn state_at(&self, t: f64) -> Result<State, StudyError> {
         let mut state = State {
             q: self.prepared.q.clone(),
             v: self.prepared.v.clone(),

@@ -14,6 +14,7 @@ mod run;
 mod sensitivity;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 
 use std::io::{self, Write};
 
@@ -49,6 +50,12 @@ pub use run::{
     RunReactionDocument,
 };
 pub use sensitivity::SensitivityDocument;
+pub use tolerance::{
+    DescribedDocument, DrawnDocument, FailureDocument, HistogramDocument, MarkerRangeDocument,
+    MeasureRangeDocument, MovedDocument, QuantityRangeDocument, RangeDocument, RankCountDocument,
+    ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
+    distance,
+};
 
 /// Number of the format of documents: it grows when an entry changes its meaning or disappears.
 pub const FORMAT: u32 = 1;

@@ -7,6 +7,7 @@
 //! | [`history()`], [`histories`] | quantities over time |
 //! | [`paths()`] | paths in the plane, with equal axes |
 //! | [`work_precision()`] | error against run time, scene by scene |
+//! | [`ranges()`], [`cloud()`] | numbers and places over samples |
 //! | [`extremes()`] | error over an extreme number, panel by panel |
 //!
 //! The selection of quantities, and the pages around figures, are in other modules.
@@ -27,6 +28,7 @@ mod projection;
 mod style;
 mod svg;
 mod symbol;
+mod tolerance;
 mod work_precision;
 
 pub use extremes::{Extremes, extremes};
@@ -37,6 +39,7 @@ pub use paths::{Path, PathRecorder, paths};
 pub use style::{Pattern, Style};
 pub(crate) use svg::GENERATOR;
 pub(crate) use svg::escape;
+pub use tolerance::{RangeRow, cloud, ranges};
 pub use work_precision::work_precision;
 
 /// Reason why a figure cannot be drawn.

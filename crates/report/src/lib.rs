@@ -8,6 +8,7 @@
 //! | [`documents`] | `analyze --json`, `plan --json` and `summary.json` |
 //! | [`figures`] | the mechanism with its verdicts, histories, paths in the plane: SVG |
 //! | [`mod@work_precision`] | error against run time: table, figure, page |
+//! | [`mod@tolerance`] | data within their tolerances: page |
 //! | [`mod@sweep`] | many runs: a journal that survives interruptions, CSV and Parquet |
 //! | [`html`] | the page of a run, with its animation |
 //! | [`page`] | common parts of pages: head, end, style, format of numbers |
@@ -22,6 +23,7 @@ pub mod page;
 mod recording;
 pub mod sweep;
 pub mod tables;
+pub mod tolerance;
 pub mod work_precision;
 
 pub use documents::{AnalysisDocument, Ending, PlanDocument, Run, RunDocument, write_json};
@@ -33,7 +35,11 @@ pub use html::{
 };
 pub use recording::{Frame, Recording};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
-pub use tables::{MatrixTable, ReactionTable, Selection, TableError, TrajectoryTable, modes_table};
+pub use tables::{
+    MatrixTable, ReactionTable, Selection, TableError, TrajectoryTable, modes_table,
+    tolerance_table,
+};
+pub use tolerance::tolerance_page;
 pub use work_precision::{
     CurveName, Place, Provenance, RankingLine, ReferenceDocument, WorkPrecisionDocument,
     WorkPrecisionRow, WorkPrecisionScene, WorkPrecisionTable, work_precision_page,

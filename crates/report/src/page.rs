@@ -21,9 +21,13 @@ table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabula
 th, td { padding: 2px 9px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
 th { font-weight: 600; } .name { text-align: left; } .best { background: var(--best); }
 td.status { text-align: left; white-space: normal; min-width: 14em; }
+@media print { body { max-width: none; margin: 0; } svg, tr { break-inside: avoid; } .wide { overflow: visible; } }
 details { margin: .8em 0; } summary { cursor: pointer; }
 dt { font-weight: 600; } dd { margin: 0 0 .3em 1.5em; }
 ";
+
+/// Content security policy: a page without scripts, which loads nothing.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 
 /// The beginning of a page, up to its title.
 #[must_use]
@@ -32,6 +36,7 @@ pub fn open(title: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
          <meta name=\"generator\" content=\"pfaff {}\">\n<title>{title}</title>\n\
          <style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n",
         env!("CARGO_PKG_VERSION")

@@ -7,6 +7,7 @@ mod linearise;
 mod reactions;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 mod trajectory;
 
 use model::codes::Code;
@@ -16,6 +17,7 @@ use serde::Serialize;
 
 pub use linearise::{MatrixTable, modes_table};
 pub use reactions::{ReactionTable, Selection};
+pub use tolerance::tolerance_table;
 pub use trajectory::TrajectoryTable;
 
 /// Reason why a table or a row cannot be written.

@@ -79,6 +79,6 @@ pub use read::read;
 pub use scene::{Inactive, Scene};
 pub use schema::schema;
 pub use source_map::{Entry, SourceMap};
-pub use template::{KeyError, Template, at_rest};
+pub use template::{KeyError, Shift, Template, at_rest};
 pub use text::SourceText;
 pub use units::WithUnit;

@@ -51,6 +51,17 @@ pub struct Template {
     slots: Vec<(usize, Slot)>,
 }
 
+/// By how much a number of a template changes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shift {
+    /// By a number, in the unit of the number itself.
+    By(f64),
+    /// By a number of a unit; the scene has to be of format 2.
+    Of(f64, String),
+    /// By a share of itself.
+    Share(f64),
+}
+
 /// Place of a number, and other text that is written there.
 #[derive(Clone, Debug)]
 struct Slot {
@@ -184,6 +195,48 @@ impl Template {
                 }
                 Was::Other if slot.span.is_empty() => number(share),
                 Was::Other => return None,
+            };
+        }
+        Some(self.filled(&texts))
+    }
+
+    /// The text with every number changed by a shift, in the order of the keys. `None` if the text
+    /// has no number or expression for a key.
+    ///
+    /// ```
+    /// use scene::{Shift, Template};
+    /// let text = "[scene]\nformat = 2\n[parameters]\nL = 0.5\nH = \"L + 20 mm\"\n";
+    /// let template = Template::new(text, &["L", "H"])?;
+    /// let shifts = [Shift::By(0.25), Shift::Of(0.5, "mm".into())];
+    /// let shifted = template.shifted(&shifts).unwrap();
+    /// assert!(shifted.ends_with("L = 0.75\nH = \"(L + 20 mm) + 0.5 mm\"\n"));
+    /// assert!(template.shifted(&[Shift::Share(0.5), Shift::Share(0.0)]).unwrap().contains("L = 0.75\n"));
+    /// # Ok::<(), scene::KeyError>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If there are not as many shifts as keys.
+    #[must_use]
+    pub fn shifted(&self, shifts: &[Shift]) -> Option<String> {
+        let mut texts = vec![String::new(); self.slots.len()];
+        for (k, slot) in &self.slots {
+            let computed = |text: &str| toml::Value::from(text).to_string();
+            texts[*k] = match (&slot.was, &shifts[*k]) {
+                (Was::Other, _) => return None,
+                (Was::Number(x), Shift::By(by)) => number(x + by),
+                (Was::Number(x), Shift::Share(share)) => number(x * (1.0 + share)),
+                (Was::Number(x), Shift::Of(by, unit)) => {
+                    computed(&format!("{} + {} {unit}", number(*x), number(*by)))
+                }
+                (Was::Expression(text), Shift::By(by)) => {
+                    computed(&format!("({text}) + {}", number(*by)))
+                }
+                (Was::Expression(text), Shift::Share(share)) => {
+                    computed(&format!("({text})*{}", number(1.0 + share)))
+                }
+                (Was::Expression(text), Shift::Of(by, unit)) => {
+                    computed(&format!("({text}) + {} {unit}", number(*by)))
+                }
             };
         }
         Some(self.filled(&texts))

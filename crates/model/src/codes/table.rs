@@ -1094,6 +1094,40 @@ pub const TABLE: &[Entry] = &[
         MACHINE,
     ),
     entry(
+        510,
+        "No number of the scene has a tolerance",
+        "State one, as `--tolerance 1e-4` or in [scene], a body, a joint or a marker.",
+        Example::Scene(
+            "tolerance -",
+            bar!(
+                "\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n"
+            ),
+        ),
+    ),
+    entry(
+        511,
+        "The number of samples is out of its range",
+        "Ask for at least one, and for no more than the message says.",
+        Example::Scene(
+            "tolerance - --tolerance 1e-4 --runs 0",
+            bar!(
+                "\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [1.0, 0.0]\n"
+            ),
+        ),
+    ),
+    entry(
+        512,
+        "A mechanism is too large for samples of its tolerances",
+        "Make a scene of a part of it.",
+        Example::None("needs a large scene"),
+    ),
+    entry(
+        513,
+        "A number cannot vary as far as it is asked to",
+        "Correct the interval: the scene has to be right at both of its ends.",
+        Example::Scene("tolerance - --vary body.bar.mass=±200%", bar!("")),
+    ),
+    entry(
         601,
         "A file to import is not XML",
         "Correct it at the mark: every element needs its end, every attribute its quotes.",

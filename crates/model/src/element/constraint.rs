@@ -117,6 +117,11 @@ impl PlacedConstraint {
         }
     }
 
+    /// Stores other numbers, in the order of its specification.
+    pub(crate) fn set_data(&mut self, numbers: &[f64]) {
+        with!(AnyConstraint, &mut self.framed.element, element, _S => element.set_data(numbers));
+    }
+
     pub(crate) fn initialise(&mut self, bodies: &Bodies) {
         with!(AnyConstraint, &mut self.framed.element, element, S => {
             element.initialise(&self.site.poses::<S, f64>(bodies));

@@ -119,6 +119,22 @@ impl Mechanism {
         self.tolerance = tolerance;
         Ok(())
     }
+
+    /// The same mechanism with numbers that are known to their rounding.
+    #[must_use]
+    pub fn without_tolerances(mut self) -> Self {
+        self.tolerance = Tolerance::default();
+        for body in &mut self.bodies {
+            body.tolerance = None;
+        }
+        for c in &mut self.elements.constraints {
+            c.tolerance = None;
+        }
+        for marker in &mut self.observed.markers {
+            marker.tolerance = None;
+        }
+        self
+    }
 }
 
 /// Extends the lists of a mechanism, element by element.

@@ -36,6 +36,7 @@ mod sizes;
 mod space;
 mod sweep;
 mod tolerance;
+mod tolerance_samples;
 mod view;
 mod watch;
 mod work_precision;

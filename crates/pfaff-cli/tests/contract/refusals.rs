@@ -98,7 +98,7 @@ const OF_PLACES: [Fault; 1] = [Fault {
 }];
 
 /// The commands with arguments that are right, and whether these end with a scene and with a place.
-const COMMANDS: [(&str, &str, bool, bool); 16] = [
+const COMMANDS: [(&str, &str, bool, bool); 17] = [
     ("analyze", "-", true, false),
     ("simulate", "- --out run --t-end 1", true, true),
     ("plan", "-", true, false),
@@ -108,10 +108,22 @@ const COMMANDS: [(&str, &str, bool, bool); 16] = [
         true,
         true,
     ),
+    (
+        "tolerance",
+        "- --tolerance 1e-4 --runs 3 --out tolerance",
+        true,
+        true,
+    ),
     ("work-precision", "- --out work --quick", true, true),
     ("check", "-", true, false),
     ("equilibrium", "- --out rest", true, true),
     ("linearise", "- --out modes", true, true),
+    (
+        "tolerance",
+        "- --tolerance 1e-4 --runs 3 --out tolerance",
+        true,
+        true,
+    ),
     ("new", "door", false, true),
     ("import", "- --out -", false, false),
     ("view", "- --no-open", true, true),
@@ -123,7 +135,7 @@ const COMMANDS: [(&str, &str, bool, bool); 16] = [
 ];
 
 /// Further faults of single commands.
-const OF_ONE: [(&str, &str, &str); 22] = [
+const OF_ONE: [(&str, &str, &str); 28] = [
     ("linearise", "- --coordinates leaf.tilt", "P0222"),
     ("linearise", "- --at-time soon", "P0001"),
     ("analyze", "- --drop 0", "P0001"),
@@ -138,6 +150,12 @@ const OF_ONE: [(&str, &str, &str); 22] = [
     ("sweep", "- --out sweep", "P0001"),
     ("sweep", "- --out sweep --vary body.leaf.mass", "P0001"),
     ("sweep", "--merge . --out sweep", "P0507"),
+    ("tolerance", "-", "P0510"),
+    ("tolerance", "- --tolerance 1e-4 --runs 0", "P0511"),
+    ("tolerance", "- --tolerance 0", "P0001"),
+    ("tolerance", "- --vary body.leaf.mass=2", "P0001"),
+    ("tolerance", "- --vary body.nobody.mass=±1%", "P0501"),
+    ("tolerance", "- --vary body.leaf.mass=±200%", "P0513"),
     ("view", "- --out picture.png", "P0001"),
     ("new", "no-such-template", "P0001"),
     ("import", "-", "P0001"),

@@ -45,12 +45,13 @@ pub fn is_ours(path: &Path) -> bool {
 }
 
 /// Whether this is the header of one of our tables: quantities of bodies, joints and drives over
-/// time, runs of a sweep, runs of a comparison, matrices or modes.
+/// time, runs of a sweep, samples of tolerances, runs of a comparison, matrices or modes.
 fn is_table(header: &str) -> bool {
     let mut names = header.split(',');
     match names.next() {
         // Measures at the end of a row have names of their own.
         Some("t") => names.next().is_none_or(|name| name.contains('.')),
+        Some("sample") => names.next() == Some("status"),
         Some("run") => names.any(|name| name == "status"),
         // Matrices of a linearised motion, with the names of their columns.
         Some("A" | "B" | "M" | "D" | "K") => true,

@@ -1,0 +1,181 @@
+//! `pfaff tolerance`: words, documents, files, seeds and threads.
+
+use serde_json::Value;
+
+use super::{Folder, ROBOT, pfaff, stderr, stdout};
+
+const CRANKS: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../../examples/three-cranks.toml"
+);
+const SLIDER: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../../examples/slider-crank.toml"
+);
+
+fn said(arguments: &[&str]) -> String {
+    let output = pfaff(&[&["tolerance"], arguments].concat());
+    assert_eq!(
+        (output.status.code(), &*stderr(&output)),
+        (Some(0), ""),
+        "{arguments:?}"
+    );
+    stdout(&output)
+}
+
+/// In one line, because lines may be wrapped at any blank.
+fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn a_pin_that_is_off_has_a_range_in_a_sentence() {
+    let set = "joint.pivot-3.at[0]=0.5004";
+    let text = flat(&said(&[CRANKS, "--set", set, "--tolerance", "1e-6"]));
+    for words in [
+        "each uniform within ± 1 µm",
+        "as described: rank 12 of 12 rows, redundancy 0, mobility 0",
+        "with exact numbers the rank is the same in all samples",
+        "unique, FRAGILE |F| (N)",
+        "within ± 1 µm `pivot-2` carries ",
+        "(88210 N as described)",
+        "body bar moves farthest: up to ",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    // Nearer to what the rank hangs on, both readings are told.
+    let text = flat(&said(&[CRANKS, "--set", set, "--tolerance", "1e-4"]));
+    for words in [
+        "as described the rank is undecided: with data known to 1.0e-4 m the rank is 11 or 12",
+        "samples are assembled with rank 11",
+        "`pivot-2` is undecided; rigid and without play, data within ± 0.1 mm alone would decide it",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+}
+
+#[test]
+fn files_are_the_same_for_a_seed_on_any_number_of_threads() {
+    let folder = Folder::new("tolerance-samples");
+    let made = |name: &str, more: &[&str]| {
+        let out = folder.0.join(name);
+        let out = out.to_str().expect("UTF-8");
+        let arguments = [SLIDER, "--tolerance", "1e-4", "--runs", "60", "--out", out];
+        let text = said(&[&arguments, more].concat());
+        assert!(text.contains("tolerance.csv, tolerance.json, tolerance.html"));
+        let file = |file: &str| folder.read(&format!("{name}/{file}"));
+        [
+            file("tolerance.csv"),
+            file("tolerance.json"),
+            file("tolerance.html"),
+        ]
+    };
+    let one = made("one", &["--threads", "1"]);
+    let two = made("two", &["--threads", "2"]);
+    let other = made("other", &["--seed", "2"]);
+    assert_eq!(one[..2], two[..2]);
+    assert_ne!(one[0], other[0]);
+    // A row for each sample, and as many cells as columns.
+    let lines: Vec<&str> = one[0].lines().collect();
+    assert_eq!(lines.len(), 61);
+    let head: Vec<&str> = lines[0].split(',').collect();
+    assert_eq!(
+        head[..5],
+        ["sample", "status", "rank", "redundancy", "mobility"]
+    );
+    for name in [
+        "shaft.verdict",
+        "shaft.F",
+        "motor.drive",
+        "crown.x",
+        "travel",
+    ] {
+        assert!(head.contains(&name), "{name}: {head:?}");
+    }
+    assert!(
+        lines
+            .iter()
+            .all(|line| line.split(',').count() == head.len())
+    );
+    assert!(lines[1].starts_with("1,done,9,0,0,unique,"), "{}", lines[1]);
+    // The document says what the table has.
+    let d: Value = serde_json::from_str(&one[1]).expect("JSON");
+    assert_eq!(
+        (&d["format"], &d["samples"], &d["assembled"]),
+        (&1.into(), &60.into(), &60.into())
+    );
+    let column = head
+        .iter()
+        .position(|name| *name == "travel")
+        .expect("it is there");
+    let values = lines[1..]
+        .iter()
+        .filter_map(|line| line.split(',').nth(column));
+    let values: Vec<f64> = values.filter_map(|cell| cell.parse().ok()).collect();
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    assert_eq!(
+        d["measures"]["travel"]["range"]["least"].as_f64(),
+        Some(least)
+    );
+    // The page loads nothing and has no scripts.
+    let page = &one[2];
+    assert!(page.contains("default-src 'none'") && page.contains("<svg"));
+    for word in ["<script", "http:", "https:", "src="] {
+        let found = page.replace("http://www.w3.org/2000/svg", "");
+        assert!(!found.contains(word), "{word}");
+    }
+    // The same again replaces its own files.
+    assert_eq!(made("one", &["--threads", "1"])[0], one[0]);
+}
+
+#[test]
+fn a_robot_keeps_its_unique_reactions_and_gets_no_others() {
+    let d: Value = serde_json::from_str(&said(&[
+        ROBOT,
+        "--tolerance",
+        "1e-4",
+        "--runs",
+        "50",
+        "--json",
+    ]))
+    .expect("one document");
+    assert_eq!(d["described"]["rank"], 20);
+    assert_eq!((&d["samples"], &d["partial"]), (&50.into(), &false.into()));
+    for reaction in d["reactions"].as_array().expect("a list") {
+        let name = reaction["name"].as_str().expect("a name");
+        let is_unique = !["B", "C", "W1", "W2", "W3", "W4"].contains(&name);
+        let expected = if is_unique { "unique" } else { "not_unique" };
+        assert_eq!(reaction["verdict"], expected, "{name}");
+        let reading = &reaction["values"][0]["reading"];
+        if is_unique {
+            assert_eq!(reading, "kept_rows", "{name}");
+        } else {
+            assert_ne!(reading, "kept_rows", "{name}");
+        }
+    }
+    let relative: Vec<f64> = (d["reactions"].as_array().expect("a list").iter())
+        .filter_map(|r| r["relative"].as_f64())
+        .collect();
+    assert!(relative.is_sorted_by(|a, b| a >= b), "{relative:?}");
+}
+
+#[test]
+fn nothing_that_varies_is_refused_with_what_to_write() {
+    let output = pfaff(&["tolerance", CRANKS]);
+    assert_eq!(output.status.code(), Some(2));
+    let text = stderr(&output);
+    assert!(
+        text.contains("P0510") && text.contains("--tolerance 1e-4"),
+        "{text}"
+    );
+    let output = pfaff(&[
+        "tolerance",
+        CRANKS,
+        "--tolerance",
+        "1e-4",
+        "--runs",
+        "100001",
+    ]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("need 1 to 100000"));
+}

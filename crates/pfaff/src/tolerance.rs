@@ -1,0 +1,205 @@
+//! Many mechanisms with the data that a scene leaves open: each point, direction and number is
+//! somewhere within its tolerance, and each such mechanism is assembled again from the described
+//! pose and analysed. The results are how far verdicts, ranks, unique reactions and places hold.
+//!
+//! Displacements are uniform: points in the ball of their tolerance, directions and axes turned by
+//! rotation vectors that are uniform in theirs, numbers in their interval. Each point of each body
+//! is displaced by itself, because it is made by itself; a drive has the points of its joint. Masses
+//! and forces stay as they are described, unless they are varied by their keys ([`Variation`]).
+//!
+//! Where rows are redundant within the tolerances, samples are assembled on the rows that are kept:
+//! the others miss by a little, which is a result. What the same numbers are without play is the
+//! second reading of each sample; see [`Sample`].
+
+mod draw;
+mod error;
+mod failed;
+mod nominal;
+mod quantity;
+mod sample;
+mod summary;
+#[cfg(test)]
+mod tests;
+mod vary;
+
+use std::num::NonZeroUsize;
+
+use model::System;
+use rayon::prelude::*;
+use report::documents::ToleranceDocument;
+
+use crate::assembled::AssembledScene;
+use nominal::Nominal;
+
+pub use error::ToleranceError;
+pub use failed::Failed;
+pub use sample::{Assembled, Sample};
+pub use vary::{Variation, Varied};
+
+/// Largest number of rows: the rank of each sample is decided with dense matrices.
+pub const ROWS_MAX: usize = 600;
+
+/// Largest number of samples: all of them are held in memory.
+pub const SAMPLES_MAX: usize = 100_000;
+
+/// Samples if no other number is asked for: the range of the middle nine tenths is known to some
+/// percent.
+pub const SAMPLES: usize = 1000;
+
+/// Settings of the samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ToleranceOptions {
+    /// Number of samples.
+    pub samples: usize,
+    /// The seed: the same one gives the same samples, whatever the number of threads.
+    pub seed: u64,
+    /// Number of threads; `None` means one for each core.
+    pub threads: Option<NonZeroUsize>,
+}
+
+impl Default for ToleranceOptions {
+    fn default() -> Self {
+        Self {
+            samples: SAMPLES,
+            seed: 1,
+            threads: None,
+        }
+    }
+}
+
+/// A scene whose data vary within their tolerances.
+///
+/// ```
+/// use pfaff::AssembledScene;
+/// use pfaff::model::Registry;
+/// use pfaff::tolerance::{ToleranceOptions, ToleranceStudy};
+///
+/// // A beam of 20 N on a hinge and a roller 2 m apart, its centre of mass in the middle.
+/// let scene = r#"
+/// scene = { name = "beam", space = "plane", gravity = [0.0, -10.0], tolerance = 1e-3 }
+/// body = [{ name = "beam", mass = 2.0, inertia = 1.0, position = [1.0, 0.0] }]
+/// joint = [
+///     { name = "hinge", type = "revolute", bodies = ["ground", "beam"], at = [0.0, 0.0] },
+///     { name = "roller", type = "pin-in-slot", bodies = ["ground", "beam"], at = [2.0, 0.0], axis = [1, 0] },
+/// ]
+/// "#;
+/// let beam = AssembledScene::read("beam.toml", scene, &Registry::standard())?;
+/// let study = ToleranceStudy::new(beam, 0.0)?;
+/// let options = ToleranceOptions { samples: 100, ..ToleranceOptions::default() };
+/// let found = study.run(&options, || false, |_| ())?;
+/// let roller = &found.document.reactions.iter().find(|r| r.name == "roller").unwrap();
+/// let range = roller.values[0].range.as_ref().unwrap();
+/// assert!(range.least < 10.0 && range.greatest > 10.0 && range.width() < 0.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct ToleranceStudy<'r> {
+    nominal: Nominal,
+    vary: Option<Varied<'r>>,
+}
+
+/// All samples, and what they say together.
+pub struct ToleranceResult {
+    /// The samples that were made, in their order.
+    pub samples: Vec<Sample>,
+    /// What they say together.
+    pub document: ToleranceDocument,
+}
+
+impl<'r> ToleranceStudy<'r> {
+    /// Analyses the described mechanism at a time of its motion; at t = 0 no run is needed.
+    ///
+    /// # Errors
+    /// - [`ToleranceError::NoTolerance`], [`ToleranceError::NoData`]: nothing varies.
+    /// - [`ToleranceError::TooLarge`]: the mechanism has too many rows.
+    /// - [`ToleranceError::Study`]: it cannot be assembled, moved to that time, or analysed there.
+    pub fn new(assembled: AssembledScene, t: f64) -> Result<Self, ToleranceError> {
+        Self::varying(assembled, t, None)
+    }
+
+    /// Like [`Self::new`], with numbers of the scene that vary besides; then no tolerance has to be
+    /// stated.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn varying(
+        assembled: AssembledScene,
+        t: f64,
+        vary: Option<Varied<'r>>,
+    ) -> Result<Self, ToleranceError> {
+        let mechanism = &assembled.mechanism;
+        if !mechanism.has_tolerances() && vary.is_none() {
+            return Err(ToleranceError::NoTolerance);
+        }
+        let rows = mechanism.layout().rows();
+        if rows > ROWS_MAX {
+            return Err(ToleranceError::TooLarge { rows });
+        }
+        let nominal = Nominal::new(assembled, t)?;
+        if nominal.data.is_empty() && vary.is_none() {
+            return Err(ToleranceError::NoData);
+        }
+        Ok(Self { nominal, vary })
+    }
+
+    /// Makes one sample, counted from 1.
+    #[must_use]
+    pub fn sample(&self, seed: u64, number: u64) -> Sample {
+        self.nominal.sample(self.vary.as_ref(), seed, number)
+    }
+
+    /// Makes all samples. `progress` is called with each one, in any order; `interrupted` is asked
+    /// often and ends the work, with the samples so far as the result.
+    ///
+    /// # Errors
+    /// - [`ToleranceError::Samples`]: their number is out of its range.
+    /// - [`ToleranceError::Threads`]: the system does not start threads.
+    pub fn run(
+        &self,
+        options: &ToleranceOptions,
+        interrupted: impl Fn() -> bool + Sync,
+        progress: impl Fn(&Sample) + Sync,
+    ) -> Result<ToleranceResult, ToleranceError> {
+        let samples = options.samples;
+        if !(1..=SAMPLES_MAX).contains(&samples) {
+            return Err(ToleranceError::Samples { samples });
+        }
+        let pool = crate::pool(options.threads).map_err(ToleranceError::Threads)?;
+        let make = |number: u64| {
+            if interrupted() {
+                return None;
+            }
+            let sample = self.sample(options.seed, number);
+            progress(&sample);
+            Some(sample)
+        };
+        let all = 1..=samples as u64;
+        let made: Vec<Sample> = pool.install(|| all.into_par_iter().filter_map(make).collect());
+        Ok(ToleranceResult {
+            document: self.nominal.document(options, self.list(), &made),
+            samples: made,
+        })
+    }
+
+    /// The numbers of the scene that vary.
+    fn list(&self) -> &[Variation] {
+        self.vary.as_ref().map_or(&[], |vary| &vary.list)
+    }
+
+    /// The columns of the table of samples.
+    #[must_use]
+    pub fn columns(&self) -> Vec<String> {
+        self.nominal.columns(self.list())
+    }
+
+    /// A row of the table of samples.
+    #[must_use]
+    pub fn row(&self, sample: &Sample) -> Vec<String> {
+        self.nominal.row(self.list(), sample)
+    }
+
+    /// Names and places of markers in these samples (m), with the described place first.
+    #[must_use]
+    pub fn clouds(&self, samples: &[Sample]) -> Vec<(String, Vec<[f64; 3]>)> {
+        self.nominal.clouds(samples)
+    }
+}

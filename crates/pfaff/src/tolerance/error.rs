@@ -1,0 +1,87 @@
+//! Reasons why no samples are made. Samples that cannot be assembled are counted, not refused.
+
+use model::codes::Code;
+use scene::KeyError;
+
+use super::{ROWS_MAX, SAMPLES_MAX};
+use crate::error::StudyError;
+
+/// Reason why no samples are made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ToleranceError {
+    /// The scene without any displacement is invalid, or cannot be analysed.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// Nothing has a tolerance.
+    #[error(
+        "no number of the scene has a tolerance: write `--tolerance 1e-4` for ± 0.1 mm, or `tolerance = 1e-4` in [scene], \
+         in a body, a joint or a marker"
+    )]
+    NoTolerance,
+    /// A key does not refer to a number of the scene.
+    #[error(transparent)]
+    Key(#[from] KeyError),
+    /// The scene cannot be assembled at an end of the interval of a number.
+    #[error("`--vary {variation}`: {reason}")]
+    Vary {
+        /// The number and its interval.
+        variation: String,
+        /// What is wrong at one of its ends.
+        reason: String,
+    },
+    /// There are no numbers to displace.
+    #[error(
+        "nothing can be displaced: the scene has no joints or drives with numbers of their own"
+    )]
+    NoData,
+    /// The number of samples is out of its range.
+    #[error("{samples} samples: need 1 to {SAMPLES_MAX}")]
+    Samples {
+        /// The number.
+        samples: usize,
+    },
+    /// The mechanism is too large.
+    #[error(
+        "the mechanism has {rows} rows; samples are made of mechanisms with up to {ROWS_MAX}, because each of them is \
+         decided with dense matrices: make a scene of a part of it"
+    )]
+    TooLarge {
+        /// Its rows.
+        rows: usize,
+    },
+    /// The threads could not be started.
+    #[error("cannot start threads: {0}")]
+    Threads(rayon::ThreadPoolBuildError),
+}
+
+impl ToleranceError {
+    /// Its code; see [`model::codes`].
+    #[must_use]
+    pub fn code(&self) -> Code {
+        match self {
+            Self::Study(e) => e.code(),
+            Self::Key(e) => e.code(),
+            Self::Vary { .. } => const { Code::new(513) },
+            Self::NoTolerance | Self::NoData => const { Code::new(510) },
+            Self::Samples { .. } => const { Code::new(511) },
+            Self::TooLarge { .. } => const { Code::new(512) },
+            Self::Threads(_) => const { Code::new(508) },
+        }
+    }
+
+    /// Whether the input is invalid; otherwise the computation stopped.
+    #[must_use]
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Study(e) => e.is_input(),
+            Self::NoTolerance
+            | Self::Key(_)
+            | Self::Vary { .. }
+            | Self::NoData
+            | Self::Samples { .. }
+            | Self::TooLarge { .. } => true,
+            Self::Threads(_) => false,
+        }
+    }
+}

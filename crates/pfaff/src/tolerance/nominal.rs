@@ -1,0 +1,264 @@
+//! The described mechanism: its pose, the rows that are kept, the data that are displaced, and what
+//! is said of its reactions.
+
+use model::start::KeepLevel;
+use model::{ConstraintId, DataBlock, DataUnit, Mechanism, System};
+use rank::Doubt;
+use solvability::{Configuration, RowDecision, Verdict, rows_of_rank};
+
+use super::error::ToleranceError;
+use super::quantity::Quantity;
+use crate::assembled::AssembledScene;
+use crate::error::StudyError;
+use crate::study::{Overrides, Study};
+
+/// A datum that is displaced.
+#[derive(Clone, Debug)]
+pub(super) struct Displaced {
+    pub(super) block: DataBlock,
+    /// By how much at most (in its unit).
+    pub(super) tolerance: f64,
+    /// The stream of its random numbers: a drive has those of its joint, because both have the
+    /// same points.
+    pub(super) stream: u64,
+}
+
+/// How the rank of the described mechanism is read within its tolerances.
+#[derive(Clone, Debug)]
+pub(super) enum Reading {
+    Decided,
+    /// Between two ranks: the lower one is kept, and no reaction is called unique.
+    Undecided(String),
+}
+
+/// What is said of a joint or drive of the described mechanism.
+#[derive(Clone, Debug)]
+pub(super) struct NominalReaction {
+    pub(super) name: String,
+    pub(super) kind: &'static str,
+    pub(super) verdict: &'static str,
+    pub(super) fragile: bool,
+}
+
+/// A state from which samples are assembled.
+#[derive(Clone, Debug)]
+pub(super) struct Base {
+    pub(super) q: Vec<f64>,
+    pub(super) v: Vec<f64>,
+}
+
+/// The described mechanism at one time.
+pub(super) struct Nominal {
+    pub(super) scene: String,
+    pub(super) mechanism: Mechanism,
+    pub(super) t: f64,
+    pub(super) base: Base,
+    /// Columns of C along which the start keeps positions.
+    pub(super) kept_columns: Vec<usize>,
+    pub(super) size: f64,
+    pub(super) data: Vec<Displaced>,
+    pub(super) reading: Reading,
+    pub(super) rank: usize,
+    /// Rows of C that are kept.
+    pub(super) kept: Vec<usize>,
+    /// Rows of Φq that are kept.
+    pub(super) position_kept: Vec<usize>,
+    /// The other rows of Φq.
+    pub(super) missing: Vec<usize>,
+    pub(super) reactions: Vec<NominalReaction>,
+    pub(super) quantities: Vec<Quantity>,
+    /// Whether each quantity is unique as the described mechanism is read.
+    pub(super) unique: Vec<bool>,
+}
+
+impl Nominal {
+    /// The mechanism of a scene at time t.
+    pub(super) fn new(assembled: AssembledScene, t: f64) -> Result<Self, ToleranceError> {
+        let stated = assembled.mechanism.clone();
+        let (study, doubt) = study_of(assembled)?;
+        let state = study.state_at(t)?;
+        let analysed = match &doubt {
+            None => Some(study.analyse(t, None)?),
+            Some(_) => None,
+        };
+        let prepared = &study.prepared;
+        let mechanism = &prepared.mechanism;
+        let layout = mechanism.layout();
+        let mut s = mechanism.scratch();
+        mechanism.pose(t, &state.q, &mut s);
+        mechanism.phi(&mut s);
+        mechanism.c(&mut s);
+        let (kept, position_kept) = match &doubt {
+            None => (
+                prepared.decision.kept.clone(),
+                prepared.position_decision.kept.clone(),
+            ),
+            Some(doubt) => lower_rank(mechanism, &s, &state.q, doubt, prepared)?,
+        };
+        let quantities = Quantity::all(mechanism);
+        let mut unique = vec![false; quantities.len()];
+        let mut reactions: Vec<NominalReaction> = layout
+            .groups
+            .iter()
+            .map(|group| NominalReaction {
+                name: group.name.clone(),
+                kind: group.spec.common.scene_type,
+                verdict: "undecided",
+                fragile: false,
+            })
+            .collect();
+        if let Some(found) = &analysed {
+            for (own, judged) in reactions.iter_mut().zip(&found.analysis.reactions) {
+                own.verdict = judged.wrench.verdict.word();
+            }
+            let fragile = found.sensitivities()?;
+            for (ConstraintId(k), _) in fragile.fragile() {
+                reactions[k].fragile = true;
+            }
+            if let Some(decision) = found.analysis.whole() {
+                let configuration = Configuration::new(mechanism, t, &state.q, &decision)
+                    .map_err(StudyError::from)?;
+                let judge = |id, name| {
+                    let form = configuration.reactions().component(id, name)?;
+                    configuration.judge(&form)
+                };
+                for (unique, quantity) in unique.iter_mut().zip(&quantities) {
+                    *unique = true;
+                    for name in quantity.depends_on(mechanism) {
+                        let judged = judge(quantity.id, name).map_err(StudyError::from)?;
+                        *unique &= judged.verdict == Verdict::Unique;
+                    }
+                }
+            }
+        }
+        // Places, directions and numbers are those of the start, as joints have taken them there;
+        // what they are known to is what the scene states.
+        let of_stated = stated.with_numbers(&mechanism.data().numbers());
+        let mut at = of_stated.scratch();
+        of_stated.pose(0.0, &prepared.q, &mut at);
+        let data = displaced(&of_stated, of_stated.data().blocks(&at));
+        let keeps = prepared.start.keep.iter();
+        let keeps = keeps.filter(|c| c.level == KeepLevel::Position && t == 0.0);
+        let kept_columns = keeps
+            .map(|c| layout.columns(c.body).start + c.dof)
+            .collect();
+        let missing = (0..layout.m).filter(|i| position_kept.binary_search(i).is_err());
+        Ok(Self {
+            scene: study.scene.name().to_owned(),
+            t,
+            kept_columns,
+            size: prepared.assembly.size,
+            data,
+            reading: doubt.map_or(Reading::Decided, |d| Reading::Undecided(d.to_string())),
+            rank: kept.len(),
+            missing: missing.collect(),
+            kept,
+            position_kept,
+            reactions,
+            quantities,
+            unique,
+            base: Base {
+                q: state.q,
+                v: state.v,
+            },
+            mechanism: of_stated,
+        })
+    }
+}
+
+/// The study of a scene. If its rank within the tolerances is undecided: the study of the same
+/// numbers as exact ones, and the doubt.
+fn study_of(assembled: AssembledScene) -> Result<(Study, Option<Doubt>), ToleranceError> {
+    let (scene, mechanism) = (assembled.scene.clone(), assembled.mechanism.clone());
+    let doubt = match assembled.prepare(&Overrides::default()) {
+        Ok(study) => return Ok((study, None)),
+        Err(StudyError::Motion(dynamics::MotionError::RankUndecided(doubt))) => doubt,
+        Err(other) => return Err(other.into()),
+    };
+    let exact = AssembledScene {
+        scene,
+        mechanism: mechanism.without_tolerances(),
+    };
+    Ok((exact.prepare(&Overrides::default())?, Some(doubt)))
+}
+
+/// Kept rows of C and of Φq at the lower of two ranks.
+fn lower_rank(
+    mechanism: &Mechanism,
+    s: &model::Scratch,
+    q: &[f64],
+    doubt: &Doubt,
+    exact: &dynamics::Prepared,
+) -> Result<(Vec<usize>, Vec<usize>), ToleranceError> {
+    let (all, holonomic) = (&exact.decision, &exact.position_decision);
+    let fewer = match *doubt {
+        Doubt::NoClearGap { lower, .. }
+        | Doubt::NearUncertainty { lower, .. }
+        | Doubt::WithinRounding { lower, .. }
+        | Doubt::WithinTolerance { lower, .. }
+        | Doubt::OtherPoses { lower, .. } => all.rank.saturating_sub(lower),
+        _ => 0,
+    };
+    let rows = |count: usize, decision: &RowDecision| {
+        let rank = decision.rank.saturating_sub(fewer);
+        rows_of_rank(mechanism, s, q, (count, rank), None).map(|found| found.kept)
+    };
+    let undecided = || {
+        let error = dynamics::MotionError::RankUndecided(*doubt);
+        ToleranceError::Study(error.into())
+    };
+    let layout = mechanism.layout();
+    let kept = rows(layout.rows(), all).map_err(|_| undecided())?;
+    // With nonholonomic rows it may be they that are redundant.
+    let position_kept = match layout.h {
+        0 => kept.clone(),
+        _ => holonomic.kept.clone(),
+    };
+    Ok((kept, position_kept))
+}
+
+/// The data with a stated tolerance, each with the stream of its random numbers.
+pub(super) fn displaced(mechanism: &Mechanism, blocks: Vec<DataBlock>) -> Vec<Displaced> {
+    let layout = mechanism.layout();
+    let own_stream = |block: &DataBlock| block.numbers.start as u64;
+    let driven: Vec<Option<usize>> = layout
+        .constraint_ids()
+        .map(|id| mechanism.driven(id).map(|(joint, _)| joint.0))
+        .collect();
+    let of_joint = |block: &DataBlock| {
+        let joint = driven[block.group]?;
+        let same = |other: &&DataBlock| {
+            let alike = (other.name, other.unit, other.numbers.len());
+            other.group == joint && alike == (block.name, block.unit, block.numbers.len())
+        };
+        blocks.iter().find(same).map(own_stream)
+    };
+    let streams: Vec<u64> = (blocks.iter())
+        .map(|block| of_joint(block).unwrap_or_else(|| own_stream(block)))
+        .collect();
+    let all = blocks.iter().zip(streams);
+    all.filter_map(|(block, stream)| {
+        Some(Displaced {
+            tolerance: block.tolerance?,
+            block: block.clone(),
+            stream,
+        })
+    })
+    .collect()
+}
+
+impl Nominal {
+    /// The least and the greatest tolerance of a unit; `None` if nothing of it is displaced.
+    pub(super) fn tolerances(&self, unit: DataUnit) -> Option<[f64; 2]> {
+        let own = self.data.iter().filter(|d| d.block.unit == unit);
+        own.map(|d| d.tolerance).fold(None, |range, x| {
+            let [least, greatest] = range.unwrap_or([x, x]);
+            Some([least.min(x), greatest.max(x)])
+        })
+    }
+
+    /// Whether the rank is decided.
+    pub(super) fn is_decided(&self) -> bool {
+        matches!(self.reading, Reading::Decided)
+    }
+}

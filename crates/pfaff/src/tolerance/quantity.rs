@@ -1,0 +1,101 @@
+//! The numbers of reactions of which ranges are given: components, and sizes of forces and torques.
+
+use linalg::kernels::norm;
+use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
+
+/// A number of a reaction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// The named component of the definition.
+    Named,
+    /// A component in ground axes, as index of those of the space.
+    Component(usize),
+    /// The size of the force.
+    Force,
+    /// The size of the torque.
+    Torque,
+}
+
+/// A number of the reaction of a joint or drive.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Quantity {
+    pub(super) id: ConstraintId,
+    pub(super) kind: Kind,
+    pub(super) name: &'static str,
+    pub(super) unit: &'static str,
+}
+
+impl Quantity {
+    /// All numbers of all reactions, joint by joint; the first of a joint is the one that is told.
+    pub(super) fn all(mechanism: &Mechanism) -> Vec<Self> {
+        let layout = mechanism.layout();
+        layout
+            .constraint_ids()
+            .flat_map(|id| Self::of(mechanism, id))
+            .collect()
+    }
+
+    fn of(mechanism: &Mechanism, id: ConstraintId) -> Vec<Self> {
+        let group = &mechanism.layout().groups[id.0];
+        let space = group.space;
+        let components = group.components();
+        let of_kind =
+            |range: std::ops::Range<usize>| components.iter().filter(|c| range.contains(c)).count();
+        let (forces, torques) = (of_kind(space.forces()), of_kind(space.torques()));
+        let quantity = |kind, name, unit| Self {
+            id,
+            kind,
+            name,
+            unit,
+        };
+        let mut all = Vec::new();
+        if let Some(name) = group.spec.component {
+            // A drive of an angle has a torque only.
+            let unit = if forces > 0 { "N" } else { "N·m" };
+            all.push(quantity(Kind::Named, name, unit));
+        }
+        if forces > 1 {
+            all.push(quantity(Kind::Force, "|F|", "N"));
+        }
+        if torques > 1 {
+            all.push(quantity(Kind::Torque, "|T|", "N·m"));
+        }
+        for &c in &components {
+            let unit = if space.forces().contains(&c) {
+                "N"
+            } else {
+                "N·m"
+            };
+            all.push(quantity(Kind::Component(c), space.components()[c], unit));
+        }
+        all
+    }
+
+    /// Its value in a reaction.
+    pub(super) fn of_reaction(&self, space: SpaceKind, reaction: &Reaction) -> f64 {
+        let mut components = reaction.components(space);
+        match self.kind {
+            Kind::Named => reaction.component.unwrap_or(f64::NAN),
+            Kind::Component(c) => components.nth(c).unwrap_or(f64::NAN),
+            Kind::Force => norm(&reaction.force),
+            Kind::Torque => norm(&reaction.torque),
+        }
+    }
+
+    /// The components on which it depends, by name.
+    pub(super) fn depends_on(&self, mechanism: &Mechanism) -> Vec<&'static str> {
+        let group = &mechanism.layout().groups[self.id.0];
+        let space = group.space;
+        let among = |range: std::ops::Range<usize>| {
+            let own = group.components().into_iter();
+            own.filter(|c| range.contains(c))
+                .map(|c| space.components()[c])
+                .collect()
+        };
+        match self.kind {
+            Kind::Named | Kind::Component(_) => vec![self.name],
+            Kind::Force => among(space.forces()),
+            Kind::Torque => among(space.torques()),
+        }
+    }
+}

@@ -1,0 +1,399 @@
+//! One sample: the mechanism with displaced data, assembled again, and what it carries.
+//!
+//! Two readings of the same numbers. *On the kept rows* of the described mechanism the redundancy
+//! stays as it is read there: its dropped rows miss by a little, which play or elasticity takes,
+//! and the reactions that are unique there have their numbers here. *With exact numbers* all rows
+//! count at this pose, as rigid bodies without play have them: where redundant rows are independent
+//! now, the mechanism has fewer free motions, and what was not unique is decided by the data alone.
+
+use linalg::{KeptRowSaddle, Matrix};
+use model::start::requirement;
+use model::{Mechanism, Scratch, System};
+use rank::{RankDecision, RankStatus};
+use solvability::{Configuration, Equations, Verdict};
+
+use super::draw::Stream;
+use super::failed::Failed;
+use super::nominal::{Base, Displaced, Nominal};
+use super::vary::Varied;
+
+/// A pose that is farther from the described one than this share of the size of the mechanism, or
+/// than this angle (rad), is another assembly of the same parts.
+pub(super) const FAR: f64 = 0.3;
+
+/// Iterations towards a pose; from within a tolerance a few are enough, and where the rows are
+/// nearly dependent some more.
+const ITERATIONS: usize = 40;
+
+/// A pose satisfies its rows below this many roundings of their terms, or below the second number
+/// of them if it comes no nearer.
+const ROUNDINGS: f64 = 10.0;
+const STILL: f64 = 1e3;
+
+/// The reason of samples whose rows contradict each other, or nearly so.
+const NO_POSE: &str = "there is no pose near the described one on which the rows hold";
+
+fn unassembled(e: linalg::SaddleError) -> Failed {
+    Failed::new(NO_POSE, e)
+}
+
+/// Velocities satisfy rows that they are not made for to this share of the fastest one.
+const SATISFIED: f64 = 1e-9;
+
+/// The outcome of a sample.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// Its number, from 1.
+    pub number: u64,
+    /// What was found, or why it could not be assembled.
+    pub outcome: Result<Assembled, Failed>,
+    /// Where varied numbers are in their intervals, from −1 to 1.
+    pub varied: Vec<f64>,
+}
+
+/// A sample that was assembled.
+#[derive(Clone, Debug)]
+pub struct Assembled {
+    /// Rank of all rows with exact numbers; `None` if it is undecided.
+    pub rank: Option<usize>,
+    /// The verdict on each joint and drive with exact numbers.
+    pub verdicts: Vec<&'static str>,
+    /// The numbers of reactions on the kept rows.
+    pub kept: Vec<f64>,
+    /// The same with exact numbers, NaN where they are not unique or where nothing can be said.
+    pub exact: Vec<f64>,
+    /// What each dropped holonomic row misses (m or rad).
+    pub misfits: Vec<f64>,
+    /// How far the frame of each body has moved (m) and turned (rad).
+    pub moved: Vec<[f64; 2]>,
+    /// Places of markers (m).
+    pub markers: Vec<[f64; 3]>,
+    /// Values of measures.
+    pub measures: Vec<f64>,
+}
+
+impl Nominal {
+    /// Makes a sample; the result depends on the seed and the number only.
+    pub(super) fn sample(&self, vary: Option<&Varied<'_>>, seed: u64, number: u64) -> Sample {
+        let shares = vary
+            .map(|vary| vary.shares(seed, number))
+            .unwrap_or_default();
+        let outcome = match vary {
+            None => {
+                let numbers = displaced_numbers(&self.mechanism, &self.data, seed, number);
+                self.assembled(&self.mechanism.with_numbers(&numbers), &self.base)
+            }
+            Some(vary) => vary
+                .described(self, &shares)
+                .and_then(|(mechanism, base, data)| {
+                    let numbers = displaced_numbers(&mechanism, &data, seed, number);
+                    self.assembled(&mechanism.with_numbers(&numbers), &base)
+                }),
+        };
+        Sample {
+            number,
+            outcome,
+            varied: shares,
+        }
+    }
+
+    /// What a mechanism with these data is and carries.
+    pub(super) fn assembled(
+        &self,
+        mechanism: &Mechanism,
+        base: &Base,
+    ) -> Result<Assembled, Failed> {
+        let q = self.pose_of(mechanism, base)?;
+        let mut s = mechanism.scratch();
+        mechanism.pose(self.t, &q, &mut s);
+        mechanism.phi(&mut s);
+        mechanism.c(&mut s);
+        mechanism.b(&mut s);
+        let Instant { v, lambda } = self.instant(mechanism, base, &mut s)?;
+        let misfits = self.missing.iter().map(|row| s.phi[*row]).collect();
+        // What redundant rows miss is no error of C, which is known to rounding here.
+        s.phi.fill(0.0);
+        let decision = solvability::decide(mechanism, &s, &q)
+            .map_err(|e| Failed::new("the rank cannot be decided", e))?;
+        let (verdicts, exact) =
+            self.with_exact_numbers(mechanism, (&s, &q, &v), &decision, &lambda);
+        let kept = self.numbers_of(mechanism, &s, &lambda);
+        let frames = mechanism.frames();
+        let observed = frames.observed();
+        Ok(Assembled {
+            rank: (decision.status == RankStatus::Decided).then_some(decision.rank),
+            verdicts,
+            kept,
+            exact,
+            misfits,
+            moved: self.moved(mechanism, &q),
+            markers: (0..observed.markers.len())
+                .map(|k| frames.marker(k, &q, &v).place)
+                .collect(),
+            measures: (0..observed.measures.len())
+                .map(|k| frames.measure(k, &q, &v))
+                .collect(),
+        })
+    }
+
+    /// The pose nearest to the described one on the kept rows.
+    fn pose_of(&self, mechanism: &Mechanism, base: &Base) -> Result<Vec<f64>, Failed> {
+        let q = self.closest(mechanism, &base.q)?;
+        requirement(mechanism, &q)
+            .map_err(|e| Failed::new("a requirement of a joint does not hold", e))?;
+        let space = mechanism.space();
+        let moved = mechanism.difference_of(&q, &self.base.q);
+        let share = |j: usize| moved[j].abs() / space.unit(j, self.size);
+        let farthest = (0..moved.len()).fold(0, |a, j| if share(j) > share(a) { j } else { a });
+        if moved.is_empty() || share(farthest) <= FAR {
+            return Ok(q);
+        }
+        let (body, coordinate) = mechanism.coordinate(farthest);
+        Err(Failed::new(
+            "the nearest pose is far from the described one",
+            format!(
+                "{coordinate} of `{body}` differs by {:.1e}",
+                moved[farthest]
+            ),
+        ))
+    }
+
+    /// The configuration on the kept rows that is closest to the described one, in lengths, with
+    /// angles times the size: `q = q₀ + argmin ‖δ‖` under the rows linearised at q, repeated.
+    /// Coordinates that the start keeps do not move.
+    fn closest(&self, mechanism: &Mechanism, base: &[f64]) -> Result<Vec<f64>, Failed> {
+        let (space, rows) = (mechanism.space(), &self.position_kept);
+        let n = mechanism.layout().n_v;
+        let square = self.size * self.size;
+        let weight = |j| if space.is_rotation(j) { square } else { 1.0 };
+        let weights: Vec<f64> = (0..n).map(weight).collect();
+        let mut saddle = KeptRowSaddle::new(n, rows.len()).map_err(unassembled)?;
+        let mut s = mechanism.scratch();
+        let mut q = base.to_vec();
+        let (mut step, mut of_rows) = (vec![0.0; n], vec![0.0; rows.len()]);
+        let mut best = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            mechanism.pose(self.t, &q, &mut s);
+            mechanism.phi(&mut s);
+            mechanism.c(&mut s);
+            let misses = |&i: &usize| match s.phi[i] {
+                0.0 => 0.0,
+                phi => phi.abs() / mechanism.scales(&s).position(i),
+            };
+            let residual = rows.iter().map(misses).fold(0.0, f64::max);
+            // Rounding may leave a little more than the first bound: then it comes no nearer.
+            let is_still = residual >= best && residual <= STILL * f64::EPSILON;
+            if residual <= ROUNDINGS * f64::EPSILON || is_still {
+                return Ok(q);
+            }
+            best = best.min(residual);
+            let mut c = mechanism.layout().dense(&s);
+            let back = mechanism.difference_of(base, &q);
+            let held: Vec<f64> = rows
+                .iter()
+                .map(|&i| {
+                    let moved = c.row(i).iter().zip(&back).map(|(c, d)| c * d).sum::<f64>();
+                    -s.phi[i] - moved
+                })
+                .collect();
+            for &j in &self.kept_columns {
+                for &i in rows {
+                    c[(i, j)] = 0.0;
+                }
+            }
+            saddle
+                .factor(|k| c.row(rows[k]), &weights)
+                .map_err(unassembled)?;
+            saddle
+                .solve(&vec![0.0; n], &held, &mut step, &mut of_rows)
+                .map_err(unassembled)?;
+            q = space.displaced(base, 1.0, &step);
+        }
+        let worst = rows
+            .iter()
+            .copied()
+            .max_by(|a, b| s.phi[*a].abs().total_cmp(&s.phi[*b].abs()));
+        let detail = worst.map_or(String::new(), |i| {
+            format!(
+                "row {} still misses by {:.1e}",
+                mechanism.layout().labels[i],
+                s.phi[i].abs()
+            )
+        });
+        Err(Failed::new(NO_POSE, detail))
+    }
+
+    /// Velocities nearest to the described ones on the kept rows, in the mass metric, and the
+    /// multipliers there.
+    fn instant(
+        &self,
+        mechanism: &Mechanism,
+        base: &Base,
+        s: &mut Scratch,
+    ) -> Result<Instant, Failed> {
+        let c = mechanism.layout().dense(s);
+        let kept = &self.kept;
+        let failed = |e: linalg::SaddleError| {
+            Failed::new("masses and rows do not determine the accelerations", e)
+        };
+        let (n, r) = (c.ncols(), kept.len());
+        let mut saddle = KeptRowSaddle::new(n, r).map_err(failed)?;
+        saddle
+            .factor(|k| c.row(kept[k]), mechanism.mass())
+            .map_err(failed)?;
+        let of_kept = |all: &[f64]| -> Vec<f64> { kept.iter().map(|&i| all[i]).collect() };
+        let momentum: Vec<f64> = (mechanism.mass().iter().zip(&base.v))
+            .map(|(m, v)| m * v)
+            .collect();
+        let (mut v, mut impulses) = (vec![0.0; n], vec![0.0; r]);
+        let is_still = base.v.iter().all(|v| *v == 0.0) && s.b.iter().all(|b| *b == 0.0);
+        if !is_still {
+            saddle
+                .solve(&momentum, &of_kept(&s.b), &mut v, &mut impulses)
+                .map_err(failed)?;
+        }
+        mechanism.twist(&v, s);
+        mechanism.gamma(s);
+        mechanism.force(s);
+        let (mut a, mut of_rows) = (vec![0.0; n], vec![0.0; r]);
+        saddle
+            .solve(&s.force, &of_kept(&s.gamma), &mut a, &mut of_rows)
+            .map_err(failed)?;
+        let mut lambda = vec![0.0; c.nrows()];
+        for (&row, value) in kept.iter().zip(of_rows) {
+            lambda[row] = value;
+        }
+        if lambda.iter().chain(&a).any(|x| !x.is_finite()) {
+            return Err(Failed::new("forces are not finite", "their sizes overflow"));
+        }
+        Ok(Instant { v, lambda })
+    }
+
+    /// The verdicts with exact numbers at this pose, and the numbers that are unique with them.
+    fn with_exact_numbers(
+        &self,
+        mechanism: &Mechanism,
+        (s, q, v): (&Scratch, &[f64], &[f64]),
+        decision: &RankDecision,
+        lambda: &[f64],
+    ) -> (Vec<&'static str>, Vec<f64>) {
+        let groups = mechanism.layout().groups.len();
+        let nothing = vec![f64::NAN; self.quantities.len()];
+        if decision.status != RankStatus::Decided {
+            return (vec!["undecided"; groups], nothing);
+        }
+        let multipliers = self.exact_multipliers(mechanism, (s, v), decision, lambda);
+        let values = match &multipliers {
+            Some(lambda) => self.numbers_of(mechanism, s, lambda),
+            None => nothing,
+        };
+        if decision.redundancy == 0 {
+            return (vec!["unique"; groups], values);
+        }
+        let Ok(configuration) = Configuration::new(mechanism, self.t, q, decision) else {
+            return (vec!["undecided"; groups], vec![f64::NAN; values.len()]);
+        };
+        let is_unique = |quantity: &super::quantity::Quantity| {
+            let names = quantity.depends_on(mechanism);
+            names.into_iter().all(|name| {
+                let form = configuration.reactions().component(quantity.id, name);
+                let judged = form.and_then(|form| configuration.judge(&form));
+                judged.is_ok_and(|judged| judged.verdict == Verdict::Unique)
+            })
+        };
+        let values = (self.quantities.iter().zip(values))
+            .map(|(quantity, value)| if is_unique(quantity) { value } else { f64::NAN });
+        let values = values.collect();
+        let verdict = |group: &model::reaction::ConstraintGroup| {
+            let judged = configuration.solvability().group(group.rows.clone());
+            judged.map_or("undecided", |judged| judged.verdict.word())
+        };
+        let verdicts = mechanism.layout().groups.iter().map(verdict).collect();
+        (verdicts, values)
+    }
+
+    /// The multipliers of all rows with exact numbers, zeros on redundant ones. `None` if the
+    /// velocities violate a row that is independent now, or if redundant rows contradict each
+    /// other: then the mechanism cannot move as it does without play.
+    fn exact_multipliers(
+        &self,
+        mechanism: &Mechanism,
+        (s, v): (&Scratch, &[f64]),
+        decision: &RankDecision,
+        lambda: &[f64],
+    ) -> Option<Vec<f64>> {
+        if decision.kept == self.kept {
+            return Some(lambda.to_vec());
+        }
+        let layout = mechanism.layout();
+        let fastest = v.iter().fold(0.0, |a: f64, v| a.max(v.abs()));
+        let terms = |i: usize| layout.row(s, i).map(|(_, c)| c.abs()).sum::<f64>() * fastest;
+        let holds = |i: usize| layout.velocity_residual(s, i, v).abs() <= SATISFIED * terms(i);
+        if !(0..layout.rows()).all(holds) {
+            return None;
+        }
+        let c: Matrix = layout.dense(s);
+        let equations = Equations {
+            mass: mechanism.mass().to_vec(),
+            force: s.force.clone(),
+            gamma: s.gamma.clone(),
+            gamma_terms: vec![0.0; c.nrows()],
+            c,
+        };
+        equations.multipliers(decision).ok()
+    }
+
+    /// The numbers of all reactions for these multipliers.
+    fn numbers_of(&self, mechanism: &Mechanism, s: &Scratch, lambda: &[f64]) -> Vec<f64> {
+        let (reactions, space) = (mechanism.reactions(s), mechanism.space());
+        let mut block = Vec::new();
+        let ids = mechanism.layout().constraint_ids();
+        let all: Vec<_> = ids
+            .map(|id| reactions.reaction_in(&mut block, id, lambda))
+            .collect();
+        let value =
+            |quantity: &super::quantity::Quantity| quantity.of_reaction(space, &all[quantity.id.0]);
+        self.quantities.iter().map(value).collect()
+    }
+
+    /// How far the frame of each body is from the described pose.
+    fn moved(&self, mechanism: &Mechanism, q: &[f64]) -> Vec<[f64; 2]> {
+        let still = vec![0.0; mechanism.layout().n_v];
+        let (frames, space) = (mechanism.frames(), mechanism.space());
+        let turned = mechanism.difference_of(q, &self.base.q);
+        (0..mechanism.bodies().len())
+            .map(|body| {
+                let [now, then] = [q, &self.base.q].map(|q| frames.body(body, q, &still).place);
+                let apart: Vec<f64> = now.iter().zip(then).map(|(a, b)| a - b).collect();
+                let angle = &turned[space.rotations_of(body)];
+                [&apart[..], angle].map(linalg::kernels::norm)
+            })
+            .collect()
+    }
+}
+
+/// The numbers of the constraints of a sample.
+fn displaced_numbers(
+    mechanism: &Mechanism,
+    data: &[Displaced],
+    seed: u64,
+    number: u64,
+) -> Vec<f64> {
+    let mut numbers = mechanism.data().numbers();
+    for displaced in data {
+        let block = &displaced.block;
+        let mut stream = Stream::new(seed, number, displaced.stream);
+        let by = stream.ball(block.directions());
+        let by = by.map(|x| x * displaced.tolerance);
+        let own = &mut numbers[block.numbers.clone()];
+        let moved = block.displaced(own, by);
+        own.copy_from_slice(&moved);
+    }
+    numbers
+}
+
+/// Velocities, and the multipliers of the kept rows.
+struct Instant {
+    v: Vec<f64>,
+    lambda: Vec<f64>,
+}

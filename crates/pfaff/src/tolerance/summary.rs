@@ -1,0 +1,492 @@
+//! What all samples say together, as a document, and each of them as a row of a table.
+
+use model::words::rounded;
+use model::{DataUnit, System};
+use report::documents::{
+    DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument, MeasureRangeDocument,
+    MovedDocument, Named, QuantityRangeDocument, RangeDocument, RankCountDocument,
+    ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
+    distance,
+};
+
+use super::ToleranceOptions;
+use super::nominal::{Nominal, Reading};
+use super::quantity::Quantity;
+use super::sample::{Assembled, Sample};
+use super::vary::Variation;
+
+/// A number below this share of the largest one of its kind is nothing to relate a range to.
+const NOTHING: f64 = 0.1;
+
+/// A number below this share of the largest one of its kind is rounding.
+const ROUNDING: f64 = 1e-12;
+
+impl Nominal {
+    pub(super) fn document(
+        &self,
+        options: &ToleranceOptions,
+        vary: &[Variation],
+        samples: &[Sample],
+    ) -> ToleranceDocument {
+        let good: Vec<(u64, &Assembled)> = (samples.iter())
+            .filter_map(|s| Some((s.number, s.outcome.as_ref().ok()?)))
+            .collect();
+        let described = self.assembled(&self.mechanism, &self.base).ok();
+        let within = self.within();
+        let told = match vary {
+            [_, ..] if !self.data.is_empty() => format!("{within} and the given ranges"),
+            _ => within.clone(),
+        };
+        let mut reactions = self.reactions(&good, described.as_ref(), &told);
+        let width = |r: &ReactionRangeDocument| r.relative.unwrap_or(-1.0);
+        // Equal widths stay in the order of the scene.
+        reactions.sort_by(|a, b| width(b).total_cmp(&width(a)));
+        ToleranceDocument {
+            scene: self.scene.clone(),
+            time: self.t,
+            drawn: DrawnDocument {
+                samples: options.samples as u64,
+                seed: options.seed,
+                distribution: "uniform",
+                within,
+                lengths: self.tolerances(DataUnit::Length),
+                angles: self.tolerances(DataUnit::Angle),
+                data: self.data.len(),
+                varied: (vary.iter())
+                    .map(|own| VariedDocument {
+                        key: own.key().to_owned(),
+                        by: own.by(),
+                    })
+                    .collect(),
+            },
+            samples: samples.len() as u64,
+            partial: samples.len() < options.samples,
+            assembled: good.len() as u64,
+            failures: failures(samples),
+            described: self.described(),
+            ranks: self.ranks(&good),
+            undecided: good.iter().filter(|(_, s)| s.rank.is_none()).count() as u64,
+            misfits: self.misfits(&good),
+            reactions,
+            bodies: self.bodies(&good),
+            markers: self.markers(&good, described.as_ref()),
+            measures: self.measures(&good, described.as_ref()),
+        }
+    }
+
+    /// The tolerances in words.
+    fn within(&self) -> String {
+        let told = |range: Option<[f64; 2]>, words: &dyn Fn(f64) -> String| {
+            range.map(|[least, greatest]| match least == greatest {
+                true => format!("± {}", words(least)),
+                false => format!("± {} to ± {}", words(least), words(greatest)),
+            })
+        };
+        let lengths = told(self.tolerances(DataUnit::Length), &distance);
+        let angles = told(self.tolerances(DataUnit::Angle), &|x| {
+            format!("{x:.1e} rad")
+        });
+        lengths
+            .or(angles)
+            .unwrap_or_else(|| "the given ranges".to_owned())
+    }
+
+    fn described(&self) -> DescribedDocument {
+        let layout = self.mechanism.layout();
+        DescribedDocument {
+            rows: layout.rows(),
+            rank: self.rank,
+            redundancy: layout.rows() - self.rank,
+            mobility: layout.n_v - self.rank,
+            undecided_because: match &self.reading {
+                Reading::Decided => None,
+                Reading::Undecided(doubt) => Some(doubt.clone()),
+            },
+        }
+    }
+
+    fn ranks(&self, good: &[(u64, &Assembled)]) -> Vec<RankCountDocument> {
+        let layout = self.mechanism.layout();
+        let mut ranks: Vec<RankCountDocument> = Vec::new();
+        for rank in good.iter().filter_map(|(_, s)| s.rank) {
+            match ranks.iter_mut().find(|own| own.rank == rank) {
+                Some(own) => own.samples += 1,
+                None => ranks.push(RankCountDocument {
+                    rank,
+                    redundancy: layout.rows() - rank,
+                    mobility: layout.n_v - rank,
+                    samples: 1,
+                }),
+            }
+        }
+        ranks.sort_by(|a, b| (b.samples, b.rank).cmp(&(a.samples, a.rank)));
+        ranks
+    }
+
+    fn misfits(&self, good: &[(u64, &Assembled)]) -> Vec<RowMisfitDocument> {
+        let layout = self.mechanism.layout();
+        let of_row = |(k, &row): (usize, &usize)| {
+            let mut worst: Option<(u64, f64)> = None;
+            let mut sum = 0.0;
+            for (number, sample) in good {
+                let miss = sample.misfits[k].abs();
+                sum += miss;
+                if worst.is_none_or(|(_, most)| miss > most) {
+                    worst = Some((*number, miss));
+                }
+            }
+            let (sample, greatest) = worst?;
+            let label = &layout.labels[row];
+            Some(RowMisfitDocument {
+                row: row + 1,
+                joint: label.joint.clone(),
+                name: label.row,
+                unit: if layout.is_angular(row) { "rad" } else { "m" },
+                mean: sum / good.len() as f64,
+                greatest,
+                sample,
+            })
+        };
+        let mut all: Vec<_> = self.missing.iter().enumerate().filter_map(of_row).collect();
+        let size = |m: &RowMisfitDocument| match m.unit {
+            "rad" => m.greatest * self.size,
+            _ => m.greatest,
+        };
+        all.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        all
+    }
+
+    fn reactions(
+        &self,
+        good: &[(u64, &Assembled)],
+        described: Option<&Assembled>,
+        within: &str,
+    ) -> Vec<ReactionRangeDocument> {
+        let first = |id: usize| self.quantities.iter().position(|q| q.id.0 == id);
+        let told = (0..self.reactions.len()).filter_map(first);
+        let value = |k: usize| described.map_or(0.0, |d| d.kept[k].abs());
+        // What ranges are related to, and what is rounding, of forces and of torques.
+        let largest = |unit: &str| {
+            let own = told.clone().filter(|k| self.quantities[*k].unit == unit);
+            own.map(value).filter(|x| x.is_finite()).fold(0.0, f64::max)
+        };
+        let [forces, torques] = ["N", "N·m"].map(largest);
+        let scale = |unit: &str| if unit == "N" { forces } else { torques };
+        let rounding = |unit: &str| match unit {
+            "N" => ROUNDING * forces.max(torques / self.size),
+            _ => ROUNDING * torques.max(forces * self.size),
+        };
+        let reactions = self.reactions.iter().enumerate();
+        reactions
+            .map(|(id, reaction)| {
+                let mut verdicts = VerdictCounts::default();
+                for (_, sample) in good {
+                    match sample.verdicts[id] {
+                        "unique" => verdicts.unique += 1,
+                        "not_unique" => verdicts.not_unique += 1,
+                        _ => verdicts.undecided += 1,
+                    }
+                }
+                let own = self.quantities.iter().enumerate();
+                let values: Vec<QuantityRangeDocument> = own
+                    .filter(|(_, q)| q.id.0 == id)
+                    .map(|(k, q)| self.quantity(k, q, (good, described), rounding(q.unit)))
+                    .collect();
+                let relative = values.first().and_then(|value| {
+                    let range = value.range.as_ref()?;
+                    let around = range.described.unwrap_or(range.percentiles[1]).abs();
+                    let over = around.max(NOTHING * scale(value.unit));
+                    (over > 0.0).then(|| range.width() / over)
+                });
+                let told = Told {
+                    name: &reaction.name,
+                    verdict: reaction.verdict,
+                    counts: verdicts,
+                    samples: good.len() as u64,
+                    within,
+                };
+                ReactionRangeDocument {
+                    name: reaction.name.clone(),
+                    kind: reaction.kind,
+                    verdict: reaction.verdict,
+                    fragile: reaction.fragile,
+                    verdicts,
+                    sentence: told.sentence(values.first()),
+                    relative,
+                    values,
+                }
+            })
+            .collect()
+    }
+
+    /// A number of a reaction in all samples.
+    fn quantity(
+        &self,
+        k: usize,
+        quantity: &Quantity,
+        (good, described): (&[(u64, &Assembled)], Option<&Assembled>),
+        rounding: f64,
+    ) -> QuantityRangeDocument {
+        let unique = self.unique[k];
+        // A sum that cancels is zero, not its rounding.
+        let clean = |x: f64| if x.abs() <= rounding { 0.0 } else { x };
+        let value = |s: &Assembled| clean(if unique { s.kept[k] } else { s.exact[k] });
+        let range = if unique || !self.is_decided() {
+            let told = described.map(value).filter(|x| x.is_finite());
+            RangeDocument::of(good.iter().map(|(_, s)| value(s)), told)
+        } else {
+            RangeDocument::of(good.iter().map(|(_, s)| value(s)), None)
+        };
+        QuantityRangeDocument {
+            name: quantity.name,
+            unit: quantity.unit,
+            unique,
+            reading: match (&range, unique) {
+                (None, _) => "none",
+                (Some(_), true) => "kept_rows",
+                (Some(_), false) => "exact",
+            },
+            range,
+        }
+    }
+
+    fn bodies(&self, good: &[(u64, &Assembled)]) -> Named<MovedDocument> {
+        let names = self.mechanism.bodies().iter().map(|b| b.name.clone());
+        let of_body = |(k, name): (usize, String)| {
+            let mut moved = MovedDocument {
+                mean: 0.0,
+                greatest: 0.0,
+                turned: 0.0,
+            };
+            for (_, sample) in good {
+                let [by, turned] = sample.moved[k];
+                moved.mean += by / good.len() as f64;
+                moved.greatest = moved.greatest.max(by);
+                moved.turned = moved.turned.max(turned);
+            }
+            (name, moved)
+        };
+        Named(names.enumerate().map(of_body).collect())
+    }
+
+    fn markers(
+        &self,
+        good: &[(u64, &Assembled)],
+        described: Option<&Assembled>,
+    ) -> Named<MarkerRangeDocument> {
+        let Some(described) = described.filter(|_| !good.is_empty()) else {
+            return Named(Vec::new());
+        };
+        let axes = self.mechanism.space().n_translations();
+        let markers = self.mechanism.frames().observed().markers.iter();
+        let of_marker = |(k, marker): (usize, &model::Marker)| {
+            let there = described.markers[k];
+            let places = || good.iter().map(|(_, s)| s.markers[k]);
+            let extreme = |of: fn(f64, f64) -> f64| -> Vec<f64> {
+                (0..axes)
+                    .map(|axis| places().map(|p| p[axis]).fold(there[axis], of))
+                    .collect()
+            };
+            let apart = |p: [f64; 3]| -> f64 {
+                let d: Vec<f64> = p.iter().zip(there).map(|(a, b)| a - b).collect();
+                linalg::kernels::norm(&d)
+            };
+            let range = MarkerRangeDocument {
+                described: there[..axes].to_vec(),
+                least: extreme(f64::min),
+                greatest: extreme(f64::max),
+                mean: places().map(apart).sum::<f64>() / good.len() as f64,
+                farthest: places().map(apart).fold(0.0, f64::max),
+            };
+            (marker.name.clone(), range)
+        };
+        Named(markers.enumerate().map(of_marker).collect())
+    }
+
+    fn measures(
+        &self,
+        good: &[(u64, &Assembled)],
+        described: Option<&Assembled>,
+    ) -> Named<MeasureRangeDocument> {
+        let measures = self.mechanism.frames().observed().measures.iter();
+        let of_measure = |(k, measure): (usize, &model::Measure)| {
+            let values = good.iter().map(|(_, s)| s.measures[k]);
+            let range = RangeDocument::of(values, described.map(|d| d.measures[k]))?;
+            let unit = measure.kind.unit();
+            Some((measure.name.clone(), MeasureRangeDocument { unit, range }))
+        };
+        Named(measures.enumerate().filter_map(of_measure).collect())
+    }
+
+    /// The columns of the table of samples.
+    pub(super) fn columns(&self, vary: &[Variation]) -> Vec<String> {
+        let fixed = ["sample", "status", "rank", "redundancy", "mobility"];
+        let mut columns: Vec<String> = fixed.map(str::to_owned).to_vec();
+        columns.extend(vary.iter().map(|own| format!("varied.{}", own.key())));
+        let labels = &self.mechanism.layout().labels;
+        for row in &self.missing {
+            let label = &labels[*row];
+            columns.push(format!("misfit.{}.{}", label.joint, label.row));
+        }
+        for (id, reaction) in self.reactions.iter().enumerate() {
+            columns.push(format!("{}.verdict", reaction.name));
+            let own = self.quantities.iter().zip(&self.unique);
+            for (quantity, unique) in own.filter(|(q, _)| q.id.0 == id) {
+                let exact = if *unique { "" } else { ".exact" };
+                let name = quantity.name.replace('|', "");
+                columns.push(format!("{}.{name}{exact}", reaction.name));
+            }
+        }
+        let space = self.mechanism.space();
+        let observed = self.mechanism.frames().observed();
+        for marker in &observed.markers {
+            let axes = &["x", "y", "z"][..space.n_translations()];
+            columns.extend(axes.iter().map(|axis| format!("{}.{axis}", marker.name)));
+        }
+        columns.extend(observed.measures.iter().map(|m| m.name.clone()));
+        columns
+    }
+
+    /// A row of the table of samples; what does not exist is NaN.
+    pub(super) fn row(&self, vary: &[Variation], sample: &Sample) -> Vec<String> {
+        let layout = self.mechanism.layout();
+        let mut row = vec![sample.number.to_string()];
+        let found = match &sample.outcome {
+            Ok(found) => found,
+            Err(failed) => {
+                row.push(failed.reason.to_owned());
+                row.resize(self.columns(vary).len(), "NaN".to_owned());
+                return row;
+            }
+        };
+        row.push("done".to_owned());
+        let of_rank = |f: fn(usize, usize) -> usize, of: usize| {
+            found
+                .rank
+                .map_or("NaN".to_owned(), |r| f(of, r).to_string())
+        };
+        row.push(of_rank(|_, r| r, 0));
+        row.push(of_rank(|rows, r| rows - r, layout.rows()));
+        row.push(of_rank(|n_v, r| n_v - r, layout.n_v));
+        row.extend(sample.varied.iter().map(f64::to_string));
+        row.extend(found.misfits.iter().map(f64::to_string));
+        for (id, verdict) in found.verdicts.iter().enumerate() {
+            row.push((*verdict).to_owned());
+            let own = self.quantities.iter().enumerate();
+            for (k, _) in own.filter(|(_, q)| q.id.0 == id) {
+                let value = if self.unique[k] {
+                    found.kept[k]
+                } else {
+                    found.exact[k]
+                };
+                row.push(value.to_string());
+            }
+        }
+        let axes = self.mechanism.space().n_translations();
+        for place in &found.markers {
+            row.extend(place[..axes].iter().map(f64::to_string));
+        }
+        row.extend(found.measures.iter().map(f64::to_string));
+        row
+    }
+
+    /// Names and places of markers, the described one first.
+    pub(super) fn clouds(&self, samples: &[Sample]) -> Vec<(String, Vec<[f64; 3]>)> {
+        let Ok(described) = self.assembled(&self.mechanism, &self.base) else {
+            return Vec::new();
+        };
+        let markers = self.mechanism.frames().observed().markers.iter();
+        let cloud = |(k, marker): (usize, &model::Marker)| {
+            let good = samples.iter().filter_map(|s| s.outcome.as_ref().ok());
+            let all = std::iter::once(&described).chain(good);
+            (marker.name.clone(), all.map(|s| s.markers[k]).collect())
+        };
+        markers.enumerate().map(cloud).collect()
+    }
+}
+
+/// Reasons of samples that could not be assembled, the most frequent one first.
+fn failures(samples: &[Sample]) -> Vec<FailureDocument> {
+    let mut all: Vec<FailureDocument> = Vec::new();
+    for sample in samples {
+        let Err(failed) = &sample.outcome else {
+            continue;
+        };
+        match all.iter_mut().find(|own| own.reason == failed.reason) {
+            Some(own) => own.samples += 1,
+            None => all.push(FailureDocument {
+                reason: failed.reason.to_owned(),
+                samples: 1,
+                first: sample.number,
+                detail: failed.detail.clone(),
+            }),
+        }
+    }
+    // Equal numbers stay in the order of their first samples.
+    all.sort_by(|a, b| b.samples.cmp(&a.samples));
+    all
+}
+
+/// What the sentence about a reaction needs besides its range.
+struct Told<'a> {
+    name: &'a str,
+    verdict: &'a str,
+    counts: VerdictCounts,
+    samples: u64,
+    within: &'a str,
+}
+
+impl Told<'_> {
+    /// The range of the reaction in words.
+    fn sentence(&self, first: Option<&QuantityRangeDocument>) -> String {
+        let (name, samples, within) = (self.name, self.samples, self.within);
+        let Some(value) = first else {
+            return format!("`{name}` has no reaction");
+        };
+        let Some(range) = &value.range else {
+            return match self.counts {
+                _ if samples == 0 => format!("`{name}`: no sample was assembled"),
+                VerdictCounts { unique: 0, .. } => {
+                    format!("`{name}` is not unique in any sample: no range")
+                }
+                _ => format!(
+                    "`{name}` is {}; rigid and without play or slip the mechanism could not move as it does: no range",
+                    self.verdict.replace('_', " ")
+                ),
+            };
+        };
+        let unit = value.unit;
+        let (least, greatest) = (digits(range.least), digits(range.greatest));
+        let span = if least == greatest {
+            format!("{least} {unit}")
+        } else {
+            format!("{least} … {greatest} {unit}")
+        };
+        if value.unique {
+            let verb = match unit {
+                "N" => "carries",
+                _ => "takes a torque of",
+            };
+            let told = range.described.map_or(String::new(), |x| {
+                format!(" ({} {unit} as described)", digits(x))
+            });
+            return format!("within {within} `{name}` {verb} {span}{told}");
+        }
+        let [low, _, high] = range.percentiles.map(digits);
+        let share = match range.samples {
+            n if n == samples => String::new(),
+            n => format!(" in {n} of {samples} samples"),
+        };
+        format!(
+            "`{name}` is {}; rigid and without play, data within {within} alone would decide it{share}: {span}, nine tenths \
+             between {low} and {high} {unit}",
+            self.verdict.replace('_', " ")
+        )
+    }
+}
+
+/// A number with four significant digits.
+fn digits(x: f64) -> String {
+    let short: f64 = format!("{x:.3e}").parse().unwrap_or(x);
+    rounded(short + 0.0)
+}

@@ -1,0 +1,570 @@
+//! What reactions, ranks and places do while data vary within their tolerances.
+
+use serde::Serialize;
+
+use super::Named;
+
+/// The document of `tolerance --json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ToleranceDocument {
+    /// Name of the scene.
+    pub scene: String,
+    /// Time of the configuration (s).
+    pub time: f64,
+    /// What the samples are drawn from.
+    pub drawn: DrawnDocument,
+    /// Samples that were made, of those that were asked for.
+    pub samples: u64,
+    /// Whether a stop was requested before all were made.
+    pub partial: bool,
+    /// Samples that could be assembled.
+    pub assembled: u64,
+    /// Why others could not, the most frequent reason first.
+    pub failures: Vec<FailureDocument>,
+    /// The described mechanism, as it is read within its tolerances.
+    pub described: DescribedDocument,
+    /// Ranks of the samples with exact numbers at their poses, the most frequent one first.
+    pub ranks: Vec<RankCountDocument>,
+    /// Samples whose rank is undecided with exact numbers.
+    pub undecided: u64,
+    /// What rows that are redundant as described miss in the samples, the largest first: angles
+    /// count by their arm, the size of the mechanism.
+    pub misfits: Vec<RowMisfitDocument>,
+    /// Joints and drives, the largest relative range first.
+    pub reactions: Vec<ReactionRangeDocument>,
+    /// How far bodies are from where they are described.
+    pub bodies: Named<MovedDocument>,
+    /// Where markers are.
+    pub markers: Named<MarkerRangeDocument>,
+    /// Values of measures.
+    pub measures: Named<MeasureRangeDocument>,
+}
+
+/// What samples are drawn from.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DrawnDocument {
+    /// Samples that were asked for.
+    pub samples: u64,
+    /// The seed: the same one gives the same samples.
+    pub seed: u64,
+    /// The distribution of each displacement within its tolerance.
+    pub distribution: &'static str,
+    /// The tolerances in words, as `± 0.1 mm`.
+    pub within: String,
+    /// Least and greatest tolerance of points and lengths (m); `null` if none varies.
+    pub lengths: Option<[f64; 2]>,
+    /// Least and greatest tolerance of directions, angles and ratios (rad); `null` if none varies.
+    pub angles: Option<[f64; 2]>,
+    /// Number of points, directions and numbers that vary.
+    pub data: usize,
+    /// Numbers of the scene that vary besides.
+    pub varied: Vec<VariedDocument>,
+}
+
+/// A number of the scene that varies.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct VariedDocument {
+    /// Its key.
+    pub key: String,
+    /// By how much, as it was asked for.
+    pub by: String,
+}
+
+/// Samples with the same reason.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct FailureDocument {
+    /// Why they could not be assembled.
+    pub reason: String,
+    /// Their number.
+    pub samples: u64,
+    /// The first of them, from 1.
+    pub first: u64,
+    /// What is special to it.
+    pub detail: String,
+}
+
+/// The described mechanism.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DescribedDocument {
+    /// Number of rows.
+    pub rows: usize,
+    /// Rank; if it is undecided, the lower one, at which samples are assembled.
+    pub rank: usize,
+    /// Rows beyond the rank.
+    pub redundancy: usize,
+    /// Free motions.
+    pub mobility: usize,
+    /// Why the rank is undecided within the tolerances.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub undecided_because: Option<String>,
+}
+
+/// Samples of one rank.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct RankCountDocument {
+    /// Rank of all rows.
+    pub rank: usize,
+    /// Rows beyond the rank.
+    pub redundancy: usize,
+    /// Free motions.
+    pub mobility: usize,
+    /// Number of samples.
+    pub samples: u64,
+}
+
+/// What a row misses.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RowMisfitDocument {
+    /// The row, from 1.
+    pub row: usize,
+    /// Its joint or drive.
+    pub joint: String,
+    /// Its name in the joint.
+    pub name: &'static str,
+    /// `m` or `rad`.
+    pub unit: &'static str,
+    /// Mean size.
+    pub mean: f64,
+    /// Largest size.
+    pub greatest: f64,
+    /// The sample with the largest one, from 1.
+    pub sample: u64,
+}
+
+/// A joint or drive in all samples.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ReactionRangeDocument {
+    /// Its name.
+    pub name: String,
+    /// Its type in scenes.
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    /// Its verdict as described, within the tolerances.
+    pub verdict: &'static str,
+    /// Whether it is unique, but hangs on the last digits of the data.
+    pub fragile: bool,
+    /// How many samples have which verdict with exact numbers.
+    pub verdicts: VerdictCounts,
+    /// The range in words.
+    pub sentence: String,
+    /// Width of the range of its first number, relative to the described one; `null` if there is
+    /// no range, or nothing to relate it to.
+    pub relative: Option<f64>,
+    /// Its numbers; the first one is that of the sentence.
+    pub values: Vec<QuantityRangeDocument>,
+}
+
+/// Numbers of samples by verdict.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct VerdictCounts {
+    /// Unique.
+    pub unique: u64,
+    /// Not unique.
+    pub not_unique: u64,
+    /// Undecided.
+    pub undecided: u64,
+}
+
+/// A number of a reaction in all samples.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct QuantityRangeDocument {
+    /// The component, or `|F|` or `|T|`.
+    pub name: &'static str,
+    /// `N` or `N·m`.
+    pub unit: &'static str,
+    /// Whether it is unique as described.
+    pub unique: bool,
+    /// `kept_rows`: the redundancy stays as it is described, and the number is unique there.
+    /// `exact`: not unique as described; all rows count with exact numbers, rigid and without play,
+    /// in the samples in which they determine it. `none`: no sample determines it.
+    pub reading: &'static str,
+    /// Its values; `null` if no sample determines it.
+    pub range: Option<RangeDocument>,
+}
+
+/// A number in all samples that have it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RangeDocument {
+    /// Number of samples.
+    pub samples: u64,
+    /// With the data as described; `null` if it is not unique there.
+    pub described: Option<f64>,
+    /// The least value.
+    pub least: f64,
+    /// The greatest value.
+    pub greatest: f64,
+    /// The mean.
+    pub mean: f64,
+    /// The standard deviation.
+    pub deviation: f64,
+    /// Values below which 5, 50 and 95 % of the samples are.
+    pub percentiles: [f64; 3],
+    /// How many values are where.
+    pub histogram: HistogramDocument,
+}
+
+/// Numbers of values in intervals of the same width.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HistogramDocument {
+    /// Beginning of the first interval.
+    pub from: f64,
+    /// End of the last one.
+    pub to: f64,
+    /// Values in each interval.
+    pub counts: Vec<u64>,
+    /// Values before the first and after the last one: of few samples far outside.
+    pub outside: [u64; 2],
+}
+
+/// How far a body is from where it is described.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MovedDocument {
+    /// Mean distance of its frame (m).
+    pub mean: f64,
+    /// Largest distance of its frame (m).
+    pub greatest: f64,
+    /// Largest angle (rad).
+    pub turned: f64,
+}
+
+/// Where a marker is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MarkerRangeDocument {
+    /// With the data as described (m).
+    pub described: Vec<f64>,
+    /// Least coordinates (m).
+    pub least: Vec<f64>,
+    /// Greatest coordinates (m).
+    pub greatest: Vec<f64>,
+    /// Mean distance from the described place (m).
+    pub mean: f64,
+    /// Largest distance from the described place (m).
+    pub farthest: f64,
+}
+
+/// Values of a measure.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MeasureRangeDocument {
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its values.
+    pub range: RangeDocument,
+}
+
+/// A row that misses by less than this share of the tolerances fits.
+const FITS: f64 = 1e-6;
+
+/// A row that misses by less than this (m or rad) fits, whatever the tolerances.
+const CLOSED: f64 = 1e-12;
+
+impl ToleranceDocument {
+    /// What was done and what holds, in sentences: all but the ranges of single reactions.
+    #[must_use]
+    pub fn sentences(&self) -> Vec<String> {
+        let drawn = &self.drawn;
+        let angles = match (drawn.lengths, drawn.angles) {
+            (Some(_), Some([_, greatest])) => format!(" or {greatest:.1e} rad"),
+            _ => String::new(),
+        };
+        let samples = counted(drawn.samples, "sample", "samples");
+        let (distribution, within) = (drawn.distribution, &drawn.within);
+        let what = match drawn.data as u64 {
+            0 => format!("{samples}, {distribution} within {within}"),
+            n => {
+                let data = counted(
+                    n,
+                    "point, direction or number",
+                    "points, directions and numbers",
+                );
+                format!("{samples} of {data}, each {distribution} within {within}{angles}")
+            }
+        };
+        let mut all = vec![format!(
+            "{} at t = {} s: {what} (seed {})",
+            self.scene, self.time, drawn.seed
+        )];
+        if !drawn.varied.is_empty() {
+            let varied = drawn
+                .varied
+                .iter()
+                .map(|own| format!("`{}` {}", own.key, own.by));
+            let varied: Vec<String> = varied.collect();
+            all.push(format!("varied besides: {}", model::words::listed(&varied)));
+        }
+        if self.partial {
+            all.push(format!(
+                "interrupted: {} of {} samples were made",
+                self.samples, drawn.samples
+            ));
+        }
+        for failure in &self.failures {
+            all.push(format!(
+                "{} could not be assembled: {} (sample {}: {})",
+                counted(failure.samples, "sample", "samples"),
+                failure.reason,
+                failure.first,
+                failure.detail
+            ));
+        }
+        all.push(self.reading());
+        all.extend(self.exact());
+        all.extend(self.fit());
+        all
+    }
+
+    /// Reactions without a range, in sentences: those that are not unique in any sample together.
+    #[must_use]
+    pub fn without_range(&self) -> Vec<String> {
+        let has_none =
+            |r: &&ReactionRangeDocument| r.values.first().is_none_or(|v| v.range.is_none());
+        let without = || self.reactions.iter().filter(has_none);
+        if self.assembled == 0 {
+            return Vec::new();
+        }
+        let names: Vec<String> = without()
+            .filter(|r| r.verdicts.unique == 0)
+            .map(|r| format!("`{}`", r.name))
+            .collect();
+        let mut all = Vec::new();
+        if !names.is_empty() {
+            let names = model::words::listed(&names);
+            all.push(format!("not unique in any sample, so no range: {names}"));
+        }
+        let stopped = without().filter(|r| r.verdicts.unique > 0);
+        let stopped: Vec<String> = stopped.map(|r| format!("`{}`", r.name)).collect();
+        if !stopped.is_empty() {
+            let names = model::words::listed(&stopped);
+            all.push(format!(
+                "no range, because rigid and without play or slip the mechanism could not move as it does: {names}"
+            ));
+        }
+        all
+    }
+
+    /// How the described mechanism is read.
+    fn reading(&self) -> String {
+        let d = &self.described;
+        match &d.undecided_because {
+            None => format!(
+                "as described: rank {} of {}, redundancy {}, mobility {}",
+                d.rank,
+                counted(d.rows as u64, "row", "rows"),
+                d.redundancy,
+                d.mobility
+            ),
+            Some(doubt) => format!(
+                "as described the rank is undecided: {doubt}; samples are assembled with rank {}",
+                d.rank
+            ),
+        }
+    }
+
+    /// The ranks with exact numbers.
+    fn exact(&self) -> Vec<String> {
+        let d = &self.described;
+        let mut all = Vec::new();
+        for own in &self.ranks {
+            if own.rank == d.rank {
+                all.push(if own.samples == self.assembled {
+                    "with exact numbers the rank is the same in all samples".to_owned()
+                } else {
+                    format!(
+                        "with exact numbers the rank is the same in {} of {} samples",
+                        own.samples, self.assembled
+                    )
+                });
+                continue;
+            }
+            let meaning = if own.rank > d.rank {
+                let free = match d.mobility - own.mobility.min(d.mobility) {
+                    1 => "one free motion is".to_owned(),
+                    lost => format!("{lost} free motions are"),
+                };
+                format!(
+                    "rows that are redundant as described are independent there, and without play or slip {free} lost"
+                )
+            } else {
+                "rows are redundant there that are independent as described".to_owned()
+            };
+            all.push(format!(
+                "with exact numbers the rank is {} (redundancy {}, mobility {}) in {} of {} samples: {meaning}",
+                own.rank, own.redundancy, own.mobility, own.samples, self.assembled
+            ));
+        }
+        if self.undecided > 0 {
+            all.push(format!(
+                "with exact numbers the rank is undecided in {} of {} samples",
+                self.undecided, self.assembled
+            ));
+        }
+        all
+    }
+
+    /// What the redundant rows miss.
+    fn fit(&self) -> Option<String> {
+        let worst = self.misfits.first()?;
+        let drawn = &self.drawn;
+        let tolerances = drawn.lengths.into_iter().chain(drawn.angles).flatten();
+        let least = tolerances.reduce(f64::min).unwrap_or(0.0);
+        if worst.greatest <= (FITS * least).max(CLOSED) {
+            return Some("the redundant rows fit in all samples".to_owned());
+        }
+        let told = |x: f64| match worst.unit {
+            "m" => distance(x),
+            unit => format!("{x:.1e} {unit}"),
+        };
+        let others = match self.misfits.len() {
+            1 => String::new(),
+            n => format!(", the largest of {n}"),
+        };
+        Some(format!(
+            "the redundant rows do not fit exactly: row {} (`{}`, {}) misses by up to {}, {} on average{others}; play or \
+             elasticity has to take it, or the parts cannot be put together",
+            worst.row,
+            worst.joint,
+            worst.name,
+            told(worst.greatest),
+            told(worst.mean)
+        ))
+    }
+}
+
+/// A distance with at most three significant digits, in the unit that people say.
+///
+/// ```
+/// use report::documents::distance;
+/// assert_eq!([0.0, 1e-4, 2.345e-3, 1e-7, 2.0].map(distance), ["0 mm", "0.1 mm", "2.35 mm", "0.1 µm", "2 m"]);
+/// ```
+#[must_use]
+pub fn distance(metres: f64) -> String {
+    let (unit, name) = match metres.abs() {
+        0.0 => (1e-3, "mm"),
+        x if x >= 1.0 => (1.0, "m"),
+        x if x >= 1e-5 => (1e-3, "mm"),
+        _ => (1e-6, "µm"),
+    };
+    let short: f64 = format!("{:.2e}", metres / unit)
+        .parse()
+        .unwrap_or(metres / unit);
+    format!("{} {name}", model::words::rounded(short))
+}
+
+fn counted(n: u64, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
+}
+
+/// Intervals of a histogram.
+const INTERVALS: usize = 24;
+
+/// A histogram ends where the middle nine tenths do, with as much room again on each side: few
+/// samples far outside are counted, not drawn.
+const ROOM: f64 = 1.0;
+
+impl RangeDocument {
+    /// The range of these values, with the described one if there is one. Values that are not
+    /// finite are left out; `None` if no value is left.
+    ///
+    /// ```
+    /// use report::documents::RangeDocument;
+    /// let range = RangeDocument::of([1.0, 2.0, f64::NAN, 6.0], Some(2.5)).unwrap();
+    /// assert_eq!((range.samples, range.least, range.greatest, range.mean), (3, 1.0, 6.0, 3.0));
+    /// assert!(RangeDocument::of([f64::NAN], None).is_none());
+    /// ```
+    #[must_use]
+    pub fn of(values: impl IntoIterator<Item = f64>, described: Option<f64>) -> Option<Self> {
+        let mut sorted: Vec<f64> = values.into_iter().filter(|x| x.is_finite()).collect();
+        sorted.sort_by(f64::total_cmp);
+        let (&least, &greatest) = (sorted.first()?, sorted.last()?);
+        let n = sorted.len() as f64;
+        // Summed from the least size on, relative to the first: no overflow, little rounding.
+        let mean = least + sorted.iter().map(|x| (x - least) / n).sum::<f64>();
+        let variance = sorted
+            .iter()
+            .map(|x| (x - mean) * (x - mean) / n)
+            .sum::<f64>();
+        // The smallest value that at least this share of the samples does not exceed.
+        let below = |share: f64| sorted[((share * n).ceil() as usize).clamp(1, sorted.len()) - 1];
+        let percentiles = [0.05, 0.5, 0.95].map(below);
+        let room = ROOM * (percentiles[2] - percentiles[0]);
+        let from = least.max(percentiles[0] - room);
+        let to = greatest.min(percentiles[2] + room);
+        Some(Self {
+            samples: sorted.len() as u64,
+            described,
+            least,
+            greatest,
+            mean: mean.clamp(least, greatest),
+            deviation: variance.sqrt(),
+            percentiles,
+            histogram: HistogramDocument::of(&sorted, from, to),
+        })
+    }
+
+    /// Width of the range.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        self.greatest - self.least
+    }
+}
+
+impl HistogramDocument {
+    fn of(sorted: &[f64], from: f64, to: f64) -> Self {
+        let mut counts = vec![0; INTERVALS];
+        let mut outside = [0; 2];
+        for &x in sorted {
+            let share = (x - from) / (to - from);
+            match share {
+                _ if x < from => outside[0] += 1,
+                _ if x > to => outside[1] += 1,
+                // All values are equal.
+                _ if share.is_nan() => counts[INTERVALS / 2] += 1,
+                _ => counts[((share * INTERVALS as f64) as usize).min(INTERVALS - 1)] += 1,
+            }
+        }
+        Self {
+            from,
+            to,
+            counts,
+            outside,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_of_whole_numbers_are_those_of_the_textbook() {
+        let range = RangeDocument::of((1..=100).map(f64::from), None).expect("numbers");
+        assert_eq!(
+            (range.least, range.greatest, range.width()),
+            (1.0, 100.0, 99.0)
+        );
+        assert!((range.mean - 50.5).abs() < 1e-12);
+        // Of 1 to n the variance is (n² − 1)/12.
+        assert!((range.deviation - (9999.0_f64 / 12.0).sqrt()).abs() < 1e-12);
+        assert_eq!(range.percentiles, [5.0, 50.0, 95.0]);
+        assert_eq!(range.histogram.counts.iter().sum::<u64>(), 100);
+    }
+
+    #[test]
+    fn values_far_outside_are_counted_and_do_not_squeeze_the_others() {
+        let mut values = vec![1e9, -1e9];
+        values.extend((0..98).map(f64::from));
+        let range = RangeDocument::of(values, Some(3.0)).expect("numbers");
+        assert_eq!(range.histogram.outside, [1, 1]);
+        assert!(range.histogram.to < 300.0, "{range:?}");
+        assert_eq!(range.histogram.counts.iter().sum::<u64>(), 98);
+    }
+
+    #[test]
+    fn equal_values_have_a_range_of_width_zero() {
+        let range = RangeDocument::of([2.0; 5], Some(2.0)).expect("numbers");
+        assert_eq!(
+            (range.width(), range.mean, range.deviation),
+            (0.0, 2.0, 0.0)
+        );
+        assert_eq!(range.histogram.counts.iter().sum::<u64>(), 5);
+    }
+}
