@@ -33,7 +33,10 @@ pub use html::{
 };
 pub use recording::{Frame, Recording};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
-pub use tables::{MatrixTable, ReactionTable, Selection, TableError, TrajectoryTable, modes_table};
+pub use tables::{
+    Column, MatrixTable, ReactionTable, Selection, TableError, Trajectory, TrajectoryTable,
+    modes_table, reaction_columns,
+};
 pub use work_precision::{
     CurveName, Place, Provenance, RankingLine, ReferenceDocument, WorkPrecisionDocument,
     WorkPrecisionRow, WorkPrecisionScene, WorkPrecisionTable, work_precision_page,
