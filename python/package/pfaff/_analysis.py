@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -311,6 +310,8 @@ class Analysis:
         return f"<pfaff.Analysis: rank {rank}, redundancy {redundancy}, mobility {mobility}>"
 
     def _repr_html_(self) -> str:
+        from html import escape
+
         rows = [_row("th", ["reaction", "type", "rows", "verdict", "components"])]
         for name, verdict in self.verdicts.items():
             word = verdict.verdict.replace("_", " ") + (", fragile" if verdict.fragile else "")
@@ -327,4 +328,6 @@ class Analysis:
 
 
 def _row(tag: str, cells: Iterable[str]) -> str:
+    from html import escape
+
     return f"<tr>{''.join(f'<{tag}>{escape(cell)}</{tag}>' for cell in cells)}</tr>"

@@ -45,7 +45,7 @@ class Linearisation:
         if of is None:
             return None
         n = self.document["positions"]
-        return (_matrix(of["m"], n), _matrix(of["d"], n), _matrix(of["k"], n))
+        return (_matrix(of["mass"], n), _matrix(of["damping"], n), _matrix(of["stiffness"], n))
 
     def __repr__(self) -> str:
         return f"<pfaff.Linearisation: {len(self.states)} states, {self.stability}>"

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from pathlib import Path
-from shutil import move
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,6 +20,7 @@ from ._run import Event, Run
 Array = NDArray[np.float64]
 Choice = Sequence[int] | str
 """``"kept-rows"``, or the rows to drop, from 1."""
+Bodies = Sequence[str] | str
 
 
 class Matrices(NamedTuple):
@@ -164,7 +162,8 @@ class Scene:
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes the text into a file, for the command."""
-        Path(path).write_text(self.text, encoding="utf-8")
+        with open(path, "w", encoding="utf-8", newline="\n") as file:
+            file.write(self.text)
 
     # The builder.
 
@@ -185,17 +184,20 @@ class Scene:
         """The scene with another body: ``mass``, ``inertia``, ``position`` and so on."""
         return self.add("body", name=name, **keys)
 
-    def joint(self, name: str, type: str, bodies: Sequence[str], **keys: Any) -> Scene:
-        """The scene with another joint: ``at``, ``axis`` and so on, as its type wants."""
-        return self.add("joint", name=name, type=type, bodies=bodies, **keys)
+    def joint(self, name: str, type: str, bodies: Bodies, **keys: Any) -> Scene:
+        """The scene with another joint: ``at``, ``axis`` and so on, as its type wants.
+
+        ``bodies`` is a list, or the one body of a joint that has only one, as a knife edge.
+        """
+        return self.add("joint", name=name, type=type, **_between(bodies), **keys)
 
     def drive(self, name: str, **keys: Any) -> Scene:
         """The scene with another drive."""
         return self.add("drive", name=name, **keys)
 
-    def force(self, name: str, type: str, bodies: Sequence[str] | None = None, **keys: Any) -> Scene:
+    def force(self, name: str, type: str, bodies: Bodies | None = None, **keys: Any) -> Scene:
         """The scene with another applied force."""
-        return self.add("force", name=name, type=type, bodies=bodies, **keys)
+        return self.add("force", name=name, type=type, **_between(bodies), **keys)
 
     def marker(self, name: str, **keys: Any) -> Scene:
         """The scene with another marker."""
@@ -311,12 +313,15 @@ class Scene:
 
     def report(self, path: str | os.PathLike[str], **options: Any) -> None:
         """Runs the scene and writes its page for any browser."""
-        with tempfile.TemporaryDirectory() as folder:
-            page = Path(folder) / "report.html"
-            self.simulate_into(folder, **options)
-            if not page.exists():
+        # Imported here, as they take long to import.
+        from shutil import move
+        from tempfile import TemporaryDirectory
+
+        with TemporaryDirectory() as folder:
+            summary = self.simulate_into(folder, **options)
+            if "report.html" not in summary["files"]:
                 raise wrong("the scene wants no report: `output.report` is false")
-            move(page, path)
+            move(os.path.join(folder, "report.html"), path)
 
     def matrices(
         self, q: ArrayLike | None = None, v: ArrayLike | None = None, t: float = 0.0
@@ -333,6 +338,10 @@ class Scene:
 
     def _repr_html_(self) -> str:
         return self.analyze()._repr_html_()
+
+
+def _between(bodies: Bodies | None) -> dict[str, Any]:
+    return {"body" if isinstance(bodies, str) else "bodies": bodies}
 
 
 _NONE: dict[str, Any] = dict.fromkeys(
