@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import EXAMPLES, PENDULUM, SLEIGH
+from conftest import EXAMPLES, PENDULUM, ROOT, SLEIGH
 
 import pfaff
 from pfaff import _pfaff
@@ -255,3 +255,16 @@ def test_the_example_of_the_package() -> None:
 
     failed, tried = doctest.testmod(pfaff)
     assert tried > 0 and failed == 0
+
+
+def test_the_page_of_the_book(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The blocks of the page run one after the other; README has a scene and its own lines."""
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / "docs" / "book" / "python.md").read_text(encoding="utf-8")
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    for text in (page, readme):
+        blocks = [piece.split("```")[0] for piece in text.split("```python\n")[1:]]
+        assert blocks
+        names: dict[str, Any] = {}
+        for block in blocks:
+            exec(compile(block, "block", "exec"), names)
