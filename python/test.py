@@ -18,7 +18,7 @@ def main() -> None:
     run(interpreter(), "-m", "pytest", *sys.argv[1:])
     run(interpreter(), "-m", "mypy")
     allowed = HERE / "tests" / "stubtest-allowed.txt"
-    run(interpreter(), "-m", "mypy.stubtest", "pfaff", "--allowlist", allowed)
+    run(interpreter(), "-m", "mypy.stubtest", "pfaff", "--allowlist", allowed, "--mypy-config-file", HERE / "pyproject.toml")
 
 
 if __name__ == "__main__":

@@ -6,10 +6,10 @@ use pfaff::ConfigurationAnalysis;
 use pfaff::configuration::KeptAnalysis;
 use pfaff::model::System;
 use pfaff::rank::Limits;
-use pfaff::refusal::json;
+use pfaff::refusal::{Refusal, json};
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
-    DistributionDocument, EliminationsDocument, GroupDocument, MakeUniqueDocument,
+    DistributionDocument, EliminationsDocument, GroupDocument, MakeUniqueDocument, part_as_json,
 };
 use pyo3::prelude::*;
 use serde::Serialize;
@@ -152,5 +152,5 @@ impl Analysis {
 
 /// A part of a document.
 pub(crate) fn plain(document: &impl Serialize) -> Result<String, Fault> {
-    serde_json::to_string(document).map_err(|e| wrong(e.to_string()))
+    part_as_json(document).map_err(|e| Refusal::stopped(e.to_string()).into())
 }

@@ -222,7 +222,7 @@ def test_imports(command: Command, tmp_path: Path) -> None:
     assert scene.analyze().mobility == 1
     with pytest.raises(pfaff.InputError, match="is MJCF, not URDF"):
         pfaff.Scene.from_urdf(path)
-    path.write_text(model.replace("<inertial", "<inertia"), encoding="utf-8")
+    path.write_text(model.replace('mass="2"', 'mass="-2"'), encoding="utf-8")
     with pytest.raises(pfaff.SceneError) as raised:
         pfaff.Scene.from_mjcf(path)
     expected = command.run("import", path, "--out", tmp_path / "out.toml", "--force")
