@@ -1,5 +1,5 @@
 //! `THIRD-PARTY.md`: the crates of others that the command `pfaff` links, with their licences and
-//! the texts of these. Written from `cargo tree`, which resolves features as a build does, and from
+//! the texts of these, and the same of the package for Python. Written from `cargo tree`, which resolves features as a build does, and from
 //! the sources of the crates.
 //!
 //! cargo-about and cargo-deny do more, but they have to be installed first; this needs what builds
@@ -10,6 +10,7 @@ mod texts;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
@@ -18,7 +19,32 @@ use self::texts::texts;
 use crate::platforms::PLATFORMS;
 use crate::tree::{cargo, root, said_by};
 
-const FILE: &str = "THIRD-PARTY.md";
+/// What is given to others, with the file about its crates.
+#[derive(Clone, Copy)]
+struct Product {
+    file: &'static str,
+    /// The folder of its workspace.
+    workspace: &'static str,
+    package: &'static str,
+    /// What it is called.
+    name: &'static str,
+}
+
+const PRODUCTS: [Product; 2] = [
+    Product {
+        file: "THIRD-PARTY.md",
+        workspace: "",
+        package: "pfaff-cli",
+        name: "command `pfaff`",
+    },
+    Product {
+        file: "python/THIRD-PARTY.md",
+        workspace: "python",
+        package: "pfaff-python",
+        name: "Python package `pfaff`",
+    },
+];
+
 const WRITE: &str = "`cargo xtask licences` writes it anew";
 
 /// What is linked into the command, and what only builds it.
@@ -45,95 +71,185 @@ enum Network {
     None,
 }
 
-/// Writes the file.
+/// Writes the files.
 pub(crate) fn write() -> Result<String, String> {
-    let (mut linked, mut building) = (Packages::new(), Packages::new());
-    let mut sources = BTreeMap::new();
-    for (target, system) in PLATFORMS {
-        let of = |edges| packages(target, edges, Network::Allowed);
-        add(&mut linked, of(LINKED)?, system);
-        add(&mut building, of(BUILDING)?, system);
-        sources.extend(metadata(target)?);
-    }
-    building.retain(|package, _| !linked.contains_key(package));
-    for package in linked.keys().chain(building.keys()) {
-        taken(&package.licence).map_err(|e| format!("{}: {e}", package.name))?;
-    }
-    let text = document(&linked, &building, &sources)?;
-    let summary = format!(
-        "{FILE}: {} crates linked, {} only for building",
-        linked.len(),
-        building.len()
-    );
-    fs::write(root().join(FILE), text).map_err(|e| format!("{FILE}: {e}"))?;
-    Ok(summary)
+    let said: Result<Vec<_>, _> = PRODUCTS.iter().map(|product| product.write()).collect();
+    Ok(said?.join("\n"))
 }
 
-/// Compares the tables of the file with what is locked, without a network. A platform whose crates
+/// Compares the tables of the files with what is locked, without a network. A platform whose crates
 /// are not on this machine is compared with `Cargo.lock` by name and version alone.
 pub(crate) fn check() -> Result<String, String> {
-    let text =
-        fs::read_to_string(root().join(FILE)).map_err(|e| format!("{FILE}: {e}; {WRITE}"))?;
-    let lock =
-        fs::read_to_string(root().join("Cargo.lock")).map_err(|e| format!("Cargo.lock: {e}"))?;
-    let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| ")).collect();
-    let (mut faults, mut said) = (Vec::new(), Vec::new());
-    let mut now: BTreeMap<&str, Result<BTreeSet<String>, ()>> = BTreeMap::new();
-    for (target, system) in PLATFORMS {
-        let of = |edges| packages(target, edges, Network::None);
-        match of(LINKED).and_then(|linked| Ok((linked, of(BUILDING)?))) {
-            Ok((linked, building)) => {
-                for package in linked.iter().chain(&building) {
-                    if let Err(e) = taken(&package.licence) {
-                        faults.push(format!("{}: {e}", package.name));
+    let said: Result<Vec<_>, _> = PRODUCTS.iter().map(|product| product.check()).collect();
+    Ok(said?.join("\n"))
+}
+
+impl Product {
+    fn folder(self) -> PathBuf {
+        root().join(self.workspace)
+    }
+
+    fn write(self) -> Result<String, String> {
+        let file = self.file;
+        let (mut linked, mut building) = (Packages::new(), Packages::new());
+        let mut sources = BTreeMap::new();
+        for (target, system) in PLATFORMS {
+            let of = |edges| self.packages(target, edges, Network::Allowed);
+            add(&mut linked, of(LINKED)?, system);
+            add(&mut building, of(BUILDING)?, system);
+            sources.extend(metadata(&self.folder(), target)?);
+        }
+        building.retain(|package, _| !linked.contains_key(package));
+        for package in linked.keys().chain(building.keys()) {
+            taken(&package.licence).map_err(|e| format!("{}: {e}", package.name))?;
+        }
+        let text = self.document(&linked, &building, &sources)?;
+        let summary = format!(
+            "{file}: {} crates linked, {} only for building",
+            linked.len(),
+            building.len()
+        );
+        fs::write(root().join(file), text).map_err(|e| format!("{file}: {e}"))?;
+        Ok(summary)
+    }
+
+    fn check(self) -> Result<String, String> {
+        let file = self.file;
+        let text =
+            fs::read_to_string(root().join(file)).map_err(|e| format!("{file}: {e}; {WRITE}"))?;
+        let lock = fs::read_to_string(self.folder().join("Cargo.lock"))
+            .map_err(|e| format!("Cargo.lock: {e}"))?;
+        let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| ")).collect();
+        let (mut faults, mut said) = (Vec::new(), Vec::new());
+        let mut now: BTreeMap<&str, Result<BTreeSet<String>, ()>> = BTreeMap::new();
+        for (target, system) in PLATFORMS {
+            let of = |edges| self.packages(target, edges, Network::None);
+            match of(LINKED).and_then(|linked| Ok((linked, of(BUILDING)?))) {
+                Ok((linked, building)) => {
+                    for package in linked.iter().chain(&building) {
+                        if let Err(e) = taken(&package.licence) {
+                            faults.push(format!("{}: {e}", package.name));
+                        }
+                    }
+                    let known = now.entry(system).or_insert_with(|| Ok(BTreeSet::new()));
+                    if let Ok(known) = known {
+                        known.extend(linked.iter().chain(&building).map(Package::cells));
                     }
                 }
-                let known = now.entry(system).or_insert_with(|| Ok(BTreeSet::new()));
-                if let Ok(known) = known {
-                    known.extend(linked.iter().chain(&building).map(Package::cells));
+                Err(_) => {
+                    now.insert(system, Err(()));
+                    said.push(format!(
+                        "{target} is not compared: its crates are not on this machine"
+                    ));
                 }
             }
-            Err(_) => {
-                now.insert(system, Err(()));
-                said.push(format!(
-                    "{target} is not compared: its crates are not on this machine"
-                ));
+        }
+        for (system, known) in now {
+            let written: BTreeSet<String> = rows
+                .iter()
+                .filter_map(|row| row.trim_end_matches(" |").rsplit_once(" | "))
+                .filter(|(_, on)| *on == "all" || on.split(", ").any(|on| on == system))
+                .map(|(cells, _)| cells.to_owned())
+                .collect();
+            match known {
+                Ok(known) => {
+                    let differ = written.symmetric_difference(&known);
+                    faults.extend(differ.map(|row| format!("{system}: {row}")));
+                }
+                Err(()) => faults.extend(written.iter().filter_map(|row| {
+                    let mut cells = row.trim_start_matches("| ").split(" | ");
+                    let (name, version) = (cells.next()?, cells.next()?);
+                    let locked = format!("name = \"{name}\"\nversion = \"{version}\"\n");
+                    (!lock.contains(&locked))
+                        .then(|| format!("not in Cargo.lock: {name} {version}"))
+                })),
             }
         }
-    }
-    for (system, known) in now {
-        let written: BTreeSet<String> = rows
-            .iter()
-            .filter_map(|row| row.trim_end_matches(" |").rsplit_once(" | "))
-            .filter(|(_, on)| *on == "all" || on.split(", ").any(|on| on == system))
-            .map(|(cells, _)| cells.to_owned())
-            .collect();
-        match known {
-            Ok(known) => {
-                let differ = written.symmetric_difference(&known);
-                faults.extend(differ.map(|row| format!("{system}: {row}")));
-            }
-            Err(()) => faults.extend(written.iter().filter_map(|row| {
-                let mut cells = row.trim_start_matches("| ").split(" | ");
-                let (name, version) = (cells.next()?, cells.next()?);
-                let locked = format!("name = \"{name}\"\nversion = \"{version}\"\n");
-                (!lock.contains(&locked)).then(|| format!("not in Cargo.lock: {name} {version}"))
-            })),
+        if said.len() == PLATFORMS.len() {
+            faults.push("no platform could be compared: build the command first".to_owned());
         }
+        if faults.is_empty() {
+            said.insert(0, format!("{file} is that of Cargo.lock"));
+            return Ok(said.join("\n"));
+        }
+        faults.sort();
+        faults.dedup();
+        Err(format!(
+            "{file} is not that of Cargo.lock; {WRITE}:\n{}",
+            faults.join("\n")
+        ))
     }
-    if said.len() == PLATFORMS.len() {
-        faults.push("no platform could be compared: build the command first".to_owned());
+
+    /// The crates of others on which it depends on a platform, by edges of these kinds.
+    fn packages(
+        self,
+        target: &str,
+        edges: &str,
+        network: Network,
+    ) -> Result<BTreeSet<Package>, String> {
+        let mut tree = cargo(&self.folder());
+        tree.args(["tree", "--locked", "-p", self.package, "--prefix", "none"]);
+        tree.args([
+            "--target",
+            target,
+            "--edges",
+            edges,
+            "--format",
+            "{p}|{l}|{r}",
+        ]);
+        if network == Network::None {
+            tree.arg("--offline");
+        }
+        let lines = said_by(&mut tree)?;
+        Ok(lines.lines().filter_map(package).collect())
     }
-    if faults.is_empty() {
-        said.insert(0, format!("{FILE} is that of Cargo.lock"));
-        return Ok(said.join("\n"));
+
+    fn document(
+        self,
+        linked: &Packages,
+        building: &Packages,
+        sources: &BTreeMap<(String, String), Source>,
+    ) -> Result<String, String> {
+        let name = self.name;
+        let kind = name.split(" `").next().unwrap_or(name);
+        let systems: BTreeSet<&str> = PLATFORMS.iter().map(|(_, system)| *system).collect();
+        let table = |packages: &Packages| {
+            let mut rows = String::from(
+                "| crate | version | licence | source | on |\n| --- | --- | --- | --- | --- |\n",
+            );
+            for (package, on) in packages {
+                let names: Vec<&str> = on.iter().copied().collect();
+                let on = if names.len() == systems.len() {
+                    "all".to_owned()
+                } else {
+                    names.join(", ")
+                };
+                rows.push_str(&format!("{} | {on} |\n", package.cells()));
+            }
+            rows
+        };
+        let mut out = format!(
+            "# Licences of others\n\nWritten by `cargo xtask licences`; `.ci/run` compares it with `Cargo.lock`. \
+         The {name} itself is licensed under MIT or Apache-2.0.\n\n\
+         ## Linked into the {kind}\n\n{}\n## Used for building it alone\n\n{}",
+            table(linked),
+            table(building),
+        );
+        out.push_str(
+        "\n## Texts\n\nOf several licences that a crate offers, the first of these is taken:\n\n",
+    );
+        for (name, reason) in spdx::ALLOWED {
+            out.push_str(&format!("- {name}: {reason}\n"));
+        }
+        for (text, crates) in texts(linked.keys(), sources)? {
+            // A fence that is longer than any in the text.
+            out.push_str(&format!(
+                "\n### {}\n\n````text\n{text}\n````\n",
+                crates.join("; ")
+            ));
+        }
+        Ok(out)
     }
-    faults.sort();
-    faults.dedup();
-    Err(format!(
-        "{FILE} is not that of Cargo.lock; {WRITE}:\n{}",
-        faults.join("\n")
-    ))
 }
 
 impl Package {
@@ -153,25 +269,6 @@ fn add(all: &mut Packages, more: BTreeSet<Package>, system: &'static str) {
     for package in more {
         all.entry(package).or_default().insert(system);
     }
-}
-
-/// The crates of others on which the command depends on a platform, by edges of these kinds.
-fn packages(target: &str, edges: &str, network: Network) -> Result<BTreeSet<Package>, String> {
-    let mut tree = cargo(&root());
-    tree.args(["tree", "--locked", "-p", "pfaff-cli", "--prefix", "none"]);
-    tree.args([
-        "--target",
-        target,
-        "--edges",
-        edges,
-        "--format",
-        "{p}|{l}|{r}",
-    ]);
-    if network == Network::None {
-        tree.arg("--offline");
-    }
-    let lines = said_by(&mut tree)?;
-    Ok(lines.lines().filter_map(package).collect())
 }
 
 /// A line such as `either v1.2.3|MIT OR Apache-2.0|https://…`. Returns `None` for crates of the
@@ -200,8 +297,8 @@ struct Source {
 }
 
 /// The sources of all crates of a platform, by name and version.
-fn metadata(target: &str) -> Result<BTreeMap<(String, String), Source>, String> {
-    let mut metadata = cargo(&root());
+fn metadata(folder: &Path, target: &str) -> Result<BTreeMap<(String, String), Source>, String> {
+    let mut metadata = cargo(folder);
     metadata.args([
         "metadata",
         "--locked",
@@ -228,50 +325,6 @@ fn metadata(target: &str) -> Result<BTreeMap<(String, String), Source>, String> 
         ((text(&p["name"]), text(&p["version"])), source)
     };
     Ok(packages.iter().map(source).collect())
-}
-
-fn document(
-    linked: &Packages,
-    building: &Packages,
-    sources: &BTreeMap<(String, String), Source>,
-) -> Result<String, String> {
-    let systems: BTreeSet<&str> = PLATFORMS.iter().map(|(_, system)| *system).collect();
-    let table = |packages: &Packages| {
-        let mut rows = String::from(
-            "| crate | version | licence | source | on |\n| --- | --- | --- | --- | --- |\n",
-        );
-        for (package, on) in packages {
-            let names: Vec<&str> = on.iter().copied().collect();
-            let on = if names.len() == systems.len() {
-                "all".to_owned()
-            } else {
-                names.join(", ")
-            };
-            rows.push_str(&format!("{} | {on} |\n", package.cells()));
-        }
-        rows
-    };
-    let mut out = format!(
-        "# Licences of others\n\nWritten by `cargo xtask licences`; `.ci/run` compares it with `Cargo.lock`. \
-         The command `pfaff` itself is licensed under MIT or Apache-2.0.\n\n\
-         ## Linked into the command\n\n{}\n## Used for building it alone\n\n{}",
-        table(linked),
-        table(building),
-    );
-    out.push_str(
-        "\n## Texts\n\nOf several licences that a crate offers, the first of these is taken:\n\n",
-    );
-    for (name, reason) in spdx::ALLOWED {
-        out.push_str(&format!("- {name}: {reason}\n"));
-    }
-    for (text, crates) in texts(linked.keys(), sources)? {
-        // A fence that is longer than any in the text.
-        out.push_str(&format!(
-            "\n### {}\n\n````text\n{text}\n````\n",
-            crates.join("; ")
-        ));
-    }
-    Ok(out)
 }
 
 #[cfg(test)]

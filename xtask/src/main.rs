@@ -34,7 +34,7 @@ const USAGE: &str = "usage: cargo xtask COMMAND
   guards              what monitors cost in a run: the same run with them and compiled without
   house [--json] [--check]
                       lines of code, large types, circles of modules, numeric constants; with --check the limits, as an error where one is exceeded
-  licences [--check]  THIRD-PARTY.md: the crates that the command links, with their licences; --check compares it with Cargo.lock
+  licences [--check]  THIRD-PARTY.md: the crates that the command and the Python package link, with their licences; --check compares it with Cargo.lock
   platforms           type-checks the command for all supported platforms that can be installed here";
 
 fn main() -> ExitCode {

@@ -85,15 +85,9 @@ fn of_study(
         None => (of_configuration(), None),
     };
     let (configuration, mut document) = of_configuration?;
-    if arguments.at_time == 0.0
-        && let Some(later) = study
-            .contradicting_drives()
-            .map_err(|e| source.failure(e))?
-    {
-        document.warnings.insert(0, later.to_string());
-    }
     if arguments.at_time == 0.0 {
-        document.warnings.extend(study.cannot_begin());
+        let warned = study.add_warnings(&mut document);
+        warned.map_err(|e| source.failure(e))?;
     }
     document.answers.along = along.transpose()?;
     answer(arguments, &configuration, &document, console)?;

@@ -11,7 +11,7 @@ use pfaff::model::codes::Code;
 use serde::Serialize;
 
 use crate::interrupt::note_answer;
-use crate::output::{Answer, Failure, Outcome, json, visible};
+use crate::output::{Answer, Failure, Outcome, Refusal, json, visible};
 
 /// A stream for output, and whether it can show colours.
 pub struct Stream<'w> {
@@ -63,7 +63,7 @@ impl<'c> Console<'c> {
     /// Writes an answer.
     ///
     /// # Errors
-    /// [`Failure::Closed`] if the reader has closed the output, [`Failure::Stopped`] if the output
+    /// [`Failure::Closed`] if the reader has closed the output, [`Refusal::Stopped`] if the output
     /// cannot be written.
     pub fn print(&self, text: &str) -> Outcome {
         self.write(|out| out.write_all(visible(text).as_bytes()))
@@ -116,8 +116,8 @@ impl<'c> Console<'c> {
         let code = match failure {
             Failure::Closed => return ExitCode::SUCCESS,
             Failure::Incomplete => return ExitCode::from(1),
-            Failure::Scene { .. } | Failure::Input(..) => 2,
-            Failure::Stopped(..) => 1,
+            Failure::Refused(Refusal::Scene { .. } | Refusal::Input(..)) => 2,
+            Failure::Refused(Refusal::Stopped(..)) => 1,
         };
         let unsaid = match answer {
             Answer::Json => failure.document().and_then(|text| self.print(&text)).err(),

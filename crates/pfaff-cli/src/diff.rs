@@ -30,7 +30,8 @@ pub(crate) fn run(arguments: &Diff, console: &Console<'_>) -> Outcome {
     }
     Interrupt::ends_at_once()?;
     let Known { settings, .. } = &arguments.known;
-    let read = |path| Ok(Source::read(path, settings, console)?.known(&arguments.known));
+    let read =
+        |path| Ok::<_, Failure>(Source::read(path, settings, console)?.known(&arguments.known));
     let sources = [read(&arguments.a)?, read(&arguments.b)?];
     arguments.resources.apply();
     let [a, b] = &sources;

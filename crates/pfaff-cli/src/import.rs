@@ -9,7 +9,7 @@ use crate::args::Import;
 use crate::console::Console;
 use crate::input::text_of;
 use crate::new::write;
-use crate::output::{Failure, Outcome, count, json, wrapped};
+use crate::output::{self, Failure, Outcome, count, json, wrapped};
 
 pub(crate) fn run(arguments: &Import, console: &Console<'_>) -> Outcome {
     let standard_output = arguments.out.as_os_str() == "-";
@@ -68,11 +68,7 @@ fn options(arguments: &Import) -> Result<Options, Failure> {
 }
 
 fn refused(refusal: Refusal) -> Failure {
-    Failure::Scene {
-        name: refusal.file,
-        text: refusal.text,
-        diagnostics: refusal.diagnostics,
-    }
+    output::Refusal::from(refusal).into()
 }
 
 fn document<'a>(

@@ -1,27 +1,19 @@
 //! A scene file from the command line, or standard input.
 
-use std::fs::{self, File};
-use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::Path;
 
-use pfaff::model::codes::Code;
 use pfaff::model::{Registry, Tolerance};
 use pfaff::scene::{KeyError, Template, nearest};
+use pfaff::source;
 use pfaff::{AssembledScene, Overrides, Study, StudyError};
 
 use crate::args::{Known, Settings};
 use crate::console::Console;
-use crate::output::Failure;
+use crate::output::{Failure, Refusal};
 use crate::resources::{Resources, Stage};
 
-/// Largest scene that is read (bytes): ten times the size of a scene with a hundred thousand
-/// bodies. An endless device must not fill the memory.
-pub const LARGEST: u64 = 1 << 28;
-
-const UNREADABLE: Code = Code::new(2);
-
-/// Number of entries of a directory that are searched for a similar name.
-const LOOKED_AT: usize = 10_000;
+pub use pfaff::source::LARGEST;
 
 /// The text of a scene, its name in messages, and the tolerances of the command line.
 pub(crate) struct Source<'r> {
@@ -81,53 +73,22 @@ impl<'r> Source<'r> {
 
     /// An error with its places in this text.
     pub(crate) fn failure(&self, error: StudyError) -> Failure {
-        let code = error.code();
-        let failure = match error {
-            StudyError::SingularStart {
-                place: Some(diagnostic),
-                ..
-            } => self.failure(StudyError::Scene(vec![*diagnostic])),
-            StudyError::Scene(diagnostics) => Failure::Scene {
-                name: self.name.clone(),
-                text: self.text.clone(),
-                diagnostics,
-            },
-            StudyError::NoEnd => Failure::input(format!(
-                "{}: write one after `--t-end`, or after `--along`",
-                StudyError::NoEnd
-            )),
-            other if other.is_input() => Failure::input(other.to_string()),
-            other => Failure::stopped(other.to_string()),
-        };
-        failure.coded(code)
+        if let StudyError::NoEnd = error {
+            let message = format!("{error}: write one after `--t-end`, or after `--along`");
+            return Failure::input(message).coded(error.code());
+        }
+        Refusal::of((&self.name, &self.text), error).into()
     }
 }
 
 /// The name in messages and the text of a file, or of standard input for `-`.
 pub(crate) fn text_of(path: &Path) -> Result<(String, String), Failure> {
-    let standard_input = path.as_os_str() == "-";
-    let name = if standard_input {
-        "<stdin>".to_owned()
-    } else {
-        path.display().to_string()
-    };
-    let bytes = if standard_input {
-        bounded(std::io::stdin())
-    } else {
-        File::open(path).and_then(bounded)
-    };
-    let bytes = bytes.map_err(|e| unreadable(path, &e))?;
-    if bytes.len() as u64 > LARGEST {
-        let largest = LARGEST >> 20;
-        let message = format!("`{name}` is too large for a scene: more than {largest} MiB");
-        return Err(Failure::input(message).coded(UNREADABLE));
+    if path.as_os_str() == "-" {
+        let name = "<stdin>".to_owned();
+        let text = source::of_stream(&name, io::stdin())?;
+        return Ok((name, text));
     }
-    let text = String::from_utf8(bytes).map_err(|e| {
-        let (line, column) = end_of(&e.as_bytes()[..e.utf8_error().valid_up_to()]);
-        let message = format!("{name}:{line}:{column}: not UTF-8: save the file as UTF-8");
-        Failure::input(message).coded(UNREADABLE)
-    })?;
-    Ok((name, text))
+    Ok(source::of_file(path)?)
 }
 
 /// The text of a scene with other numbers in it. One that is not TOML stays as it is: its reader
@@ -148,36 +109,7 @@ fn with_settings(text: String, Settings { list }: &Settings) -> Result<String, F
 
 /// A file that cannot be read, with the scene in its directory that was probably meant.
 pub fn unreadable(path: &Path, e: &io::Error) -> Failure {
-    let name = if path.as_os_str() == "-" {
-        "<stdin>".into()
-    } else {
-        path.display().to_string()
-    };
-    let near = match e.kind() {
-        io::ErrorKind::NotFound => scene_beside(path),
-        _ => None,
-    };
-    let advice = near.map_or_else(String::new, |near| {
-        format!("; did you mean `{}`?", near.display())
-    });
-    Failure::input(format!("cannot read `{name}`: {e}{advice}")).coded(UNREADABLE)
-}
-
-/// The scene in the directory of a path whose name is nearest to that of the path.
-fn scene_beside(path: &Path) -> Option<PathBuf> {
-    let directory = match path.parent() {
-        Some(parent) if parent.as_os_str() != "" => parent,
-        _ => Path::new("."),
-    };
-    let entries = fs::read_dir(directory).ok()?.take(LOOKED_AT).flatten();
-    let scenes = entries.map(|entry| PathBuf::from(entry.file_name()));
-    let scenes = scenes.filter(|file| file.extension().is_some_and(|end| end == "toml"));
-    let stem = |file: &Path| Some(file.file_stem()?.to_str()?.to_owned());
-    let mut stems: Vec<String> = scenes.filter_map(|file| stem(&file)).collect();
-    // The system lists a directory in no defined order.
-    stems.sort_unstable();
-    let near = nearest(&stem(path)?, stems.iter().map(String::as_str))?;
-    Some(path.with_file_name(format!("{near}.toml")))
+    source::unreadable(path, e).into()
 }
 
 /// The error for an unknown name, with the name that was probably meant and the known names.
@@ -188,20 +120,6 @@ pub fn unknown(what: &str, name: &str, known: &[&str]) -> Failure {
         "there is no {what} `{name}`; there are: {}{advice}",
         known.join(", ")
     ))
-}
-
-/// Reads all bytes, but at most one more than a scene may have.
-fn bounded(reader: impl Read) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    reader.take(LARGEST + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
-}
-
-/// Line and column just after the last valid character of a text, both from 1.
-fn end_of(text: &[u8]) -> (usize, usize) {
-    let text = String::from_utf8_lossy(text);
-    let last = text.rsplit('\n').next().unwrap_or_default();
-    (text.matches('\n').count() + 1, last.chars().count() + 1)
 }
 
 /// Rows counted from 0, from the user's rows counted from 1.

@@ -225,7 +225,7 @@ fn leaves_no_motion(e: &MotionError) -> bool {
 }
 
 /// The options of the scene, with those of the caller taking precedence.
-fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
+pub(crate) fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
     let mut options = match (&scene.simulate, overrides.t_end) {
         (Some(options), _) => options.clone(),
         (None, Some(t_end)) => MotionOptions::to(t_end),

@@ -57,6 +57,16 @@ pub struct ConfigurationAnalysis<'a> {
     questions: Questions<'a>,
 }
 
+/// The results of a configuration, to be asked again later.
+#[derive(Clone)]
+#[non_exhaustive]
+pub struct KeptAnalysis {
+    /// Coordinates and velocities.
+    pub state: State,
+    /// Ranks and verdicts.
+    pub analysis: Arc<Analysis>,
+}
+
 /// The decision on the rows of a configuration that is known or requested.
 pub(crate) enum AskedRows<'r> {
     /// No decision is known or requested.
@@ -92,6 +102,43 @@ impl<'a> ConfigurationAnalysis<'a> {
             state,
             analysis,
         })
+    }
+
+    /// The results without the scene that they belong to.
+    #[must_use]
+    pub fn kept(&self) -> KeptAnalysis {
+        KeptAnalysis {
+            state: self.state.clone(),
+            analysis: Arc::clone(&self.analysis),
+        }
+    }
+
+    /// The same configuration again: nothing is decided anew. The results have to be those of this
+    /// scene and this mechanism.
+    ///
+    /// ```
+    /// use pfaff::ConfigurationAnalysis;
+    /// use pfaff::prelude::*;
+    ///
+    /// let mut sleigh = Description::new("sleigh");
+    /// let body = sleigh.body(Body::new("sleigh", 10.0, 1.0));
+    /// sleigh.joint("blade", &[body], KnifeEdge { s: [0.0, 0.0], normal: Direction::Y });
+    /// let study = Study::build(sleigh)?;
+    /// let kept = study.analyse(0.0, None)?.kept();
+    /// let again = ConfigurationAnalysis::again(&study.scene, &study.prepared.mechanism, &kept);
+    /// assert!(again.verdict("blade")?.wrench.verdict.is_unique());
+    /// # Ok::<(), StudyError>(())
+    /// ```
+    #[must_use]
+    pub fn again(scene: &'a Scene, mechanism: &'a Mechanism, kept: &KeptAnalysis) -> Self {
+        let KeptAnalysis { state, analysis } = kept;
+        Self {
+            scene,
+            mechanism,
+            questions: Questions::new(mechanism, &state.q, Arc::clone(analysis)),
+            state: state.clone(),
+            analysis: Arc::clone(analysis),
+        }
     }
 
     /// The joint or drive with this name.

@@ -19,6 +19,7 @@
 //! | [`mod@work_precision`] | error against run time |
 //! | [`memory`] | estimated memory |
 //! | [`error`] | reasons why there are no results |
+//! | `refusal`, `source` (feature `messages`) | these reasons in words for people; texts of files |
 
 use std::num::NonZeroUsize;
 
@@ -30,7 +31,11 @@ pub mod difference;
 pub mod error;
 pub mod memory;
 pub mod prelude;
+#[cfg(feature = "messages")]
+pub mod refusal;
 mod report_builder;
+#[cfg(feature = "messages")]
+pub mod source;
 mod spread;
 pub mod study;
 pub mod sweep;

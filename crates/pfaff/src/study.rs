@@ -10,17 +10,17 @@ use dynamics::equilibrium::{Equilibrium, EquilibriumOptions, equilibrium};
 use dynamics::linearise::{Linearisation, LineariseOptions, linearise};
 use dynamics::plan::{Reactions, Rows};
 use dynamics::{
-    Failure, Method, MotionFault, MotionOptions, Plan, Prepared, Sample, Stabilisation, Stop,
-    Summary, Wanted, simulate_until,
+    Failure, Method, MotionError, MotionFault, MotionOptions, Plan, Prepared, Sample,
+    Stabilisation, Stop, Summary, Wanted, simulate_until,
 };
-use model::{AnyDescription, FramePose, Known, Registry, StartPose, System};
+use model::{AnyDescription, FramePose, Known, Reaction, Registry, StartPose, System};
 use report::documents::{DataDocument, MomentDocument, MotionDocument};
 use report::{
-    Ending, Origin, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
-    TrajectoryTable, write_json,
+    AnalysisDocument, Ending, Origin, OutputDirectory, ReactionTable, Run, RunDocument, Selection,
+    TableError, TrajectoryTable, write_json,
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
-use solvability::{Contradiction, State, contradicting_drives_along};
+use solvability::{Contradiction, ReactionVerdict, State, contradicting_drives_along};
 
 use crate::assembled::{AssembledScene, refused};
 use crate::configuration::{AskedRows, ConfigurationAnalysis};
@@ -47,6 +47,18 @@ pub struct Study {
     pub prepared: Prepared,
     /// Options of a run; `None` if neither the scene nor the caller states the end of the run.
     pub options: Option<MotionOptions>,
+}
+
+/// A run that has ended.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct EndedRun {
+    /// Its numbers, events and verdicts.
+    pub document: RunDocument,
+    /// Why it stopped before its end, if it did so by itself.
+    pub stopped: Option<MotionError>,
+    /// Verdicts at the start, in the order of the rows of C.
+    pub verdicts: Vec<ReactionVerdict>,
 }
 
 /// Options of the caller that replace those of the scene.
@@ -339,6 +351,19 @@ impl Study {
         Some(format!("this mechanism cannot be moved: {}", failure.error))
     }
 
+    /// Adds to the document of the start what speaks against a motion: drives that contradict each
+    /// other later, first, and the reason why none begins.
+    ///
+    /// # Errors
+    /// As [`Study::contradicting_drives`].
+    pub fn add_warnings(&self, document: &mut AnalysisDocument) -> Result<(), StudyError> {
+        if let Some(later) = self.contradicting_drives()? {
+            document.warnings.insert(0, later.to_string());
+        }
+        document.warnings.extend(self.cannot_begin());
+        Ok(())
+    }
+
     /// The state at a time of the motion; at t = 0 no run is needed.
     pub(crate) fn state_at(&self, t: f64) -> Result<State, StudyError> {
         let mut state = State {
@@ -365,6 +390,14 @@ impl Study {
             output_step: t,
             ..base
         }
+    }
+
+    /// The options of a run of the scene, with those of the caller taking precedence; `None` if
+    /// neither states its end. Rows to drop belong to a study of their own, see
+    /// [`AssembledScene::prepare`].
+    #[must_use]
+    pub fn options_with(&self, overrides: &Overrides) -> Option<MotionOptions> {
+        crate::assembled::options(&self.scene, overrides)
     }
 
     /// Runs the scene and shows projected rows of output; see [`dynamics::simulate()`].
@@ -416,23 +449,92 @@ impl Study {
     /// - [`StudyError::Analysis`]: reactions cannot be analysed at the start.
     pub fn motion(&self, options: &MotionOptions) -> Result<MotionDocument, StudyError> {
         let mechanism = &self.prepared.mechanism;
-        let plan = Plan::new(&self.prepared, options, &Wanted::default())?;
+        let mut rows = Vec::new();
+        let ended = self.show(
+            options,
+            &Wanted::default(),
+            &|| false,
+            |sample, reactions| {
+                let (t, q, v) = (sample.t, sample.q, sample.v);
+                rows.push(MomentDocument::new(mechanism, t, q, v, reactions));
+                ControlFlow::Continue(())
+            },
+        )?;
+        match ended.stopped {
+            Some(error) => Err(error.into()),
+            None => Ok(MotionDocument::new(ended.document, rows)),
+        }
+    }
+
+    /// Runs the scene and passes its rows with their reactions to `row`, which may end the run, as
+    /// `stop` may, which is asked at each evaluation. Rows that were passed stay valid however the
+    /// run ends.
+    ///
+    /// ```
+    /// use std::ops::ControlFlow;
+    /// use pfaff::dynamics::Wanted;
+    /// use pfaff::prelude::*;
+    ///
+    /// let mut thrown = Description { gravity: [0.0, -10.0], ..Description::new("thrown") };
+    /// thrown.body(Body { velocity: Some([0.0, 5.0]), ..Body::new("stone", 1.0, 1.0) });
+    /// let study = Study::build(thrown)?;
+    /// let mut highest = 0.0_f64;
+    /// let ended = study.show(&MotionOptions::to(1.0), &Wanted::default(), &|| false, |sample, _| {
+    ///     highest = highest.max(sample.q[1]);
+    ///     if sample.v[1] > 0.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    /// })?;
+    /// assert!((highest - 1.25).abs() < 1e-9);
+    /// assert!(ended.document.partial);
+    /// # Ok::<(), StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`StudyError::Motion`]: the run could not begin.
+    /// - [`StudyError::Interrupted`]: it was ended before the first row.
+    /// - [`StudyError::Analysis`]: reactions cannot be analysed at the start.
+    pub fn show(
+        &self,
+        options: &MotionOptions,
+        wanted: &Wanted,
+        stop: &Stop<'_>,
+        mut row: impl FnMut(&Sample<'_, '_>, &[Reaction]) -> ControlFlow<()>,
+    ) -> Result<EndedRun, StudyError> {
+        let plan = Plan::new(&self.prepared, options, wanted)?;
         let start = self.analyse(0.0, None)?;
         let freedoms = start.freedoms()?;
         let sensitivities = start.sensitivities()?;
-        let mut rows = Vec::new();
-        let mut path = Path::default();
-        let outcome = plan.simulate(|sample| {
+        let (mut path, mut rows) = (Path::default(), 0);
+        let interrupted = AtomicBool::new(false);
+        let asked = || {
+            let is_asked = stop();
+            interrupted.fetch_or(is_asked, Ordering::Relaxed);
+            is_asked
+        };
+        let goes_on = |_| ControlFlow::Continue(());
+        let outcome = plan.simulate_watched(&goes_on, &asked, |sample| {
             path.take(&self.prepared, sample);
             let reactions = sample.reactions()?;
-            rows.push(MomentDocument::new(
-                mechanism, sample.t, sample.q, sample.v, &reactions,
-            ));
-            Ok(ControlFlow::Continue(()))
+            rows += 1;
+            let flow = row(sample, &reactions);
+            interrupted.fetch_or(flow.is_break(), Ordering::Relaxed);
+            Ok(flow)
         });
-        let summary = outcome.map_err(|failure| failure.error)?;
-        let spread = path.spread(&plan, &summary, &|| false);
-        let run = Run {
+        let (summary, stopped) = match outcome {
+            Err(failure) if rows == 0 => return Err(failure.error.into()),
+            Ok(_) if rows == 0 => return Err(StudyError::Interrupted),
+            Ok(summary) => (summary, None),
+            Err(failure) => (failure.summary, Some(failure.error)),
+        };
+        let ending = match (&stopped, interrupted.load(Ordering::Relaxed)) {
+            (Some(error), _) => Ending::Stopped(error),
+            (None, true) => Ending::Interrupted,
+            (None, false) => Ending::Complete,
+        };
+        let spread = match ending {
+            Ending::Complete => path.spread(&plan, &summary, &asked),
+            _ => None,
+        };
+        let document = RunDocument::new(&Run {
             plan: &plan,
             reactions: &start.analysis.reactions,
             sensitivities: &sensitivities,
@@ -440,11 +542,15 @@ impl Study {
             freedoms: &freedoms,
             summary: &summary,
             spread: spread.as_ref(),
-            ending: Ending::Complete,
-            rows: rows.len(),
+            ending,
+            rows,
             files: &[],
-        };
-        Ok(MotionDocument::new(RunDocument::new(&run), rows))
+        });
+        Ok(EndedRun {
+            document,
+            stopped,
+            verdicts: start.analysis.reactions.clone(),
+        })
     }
 
     /// The plan of a run of the scene, with the output that its `[output]` requests.

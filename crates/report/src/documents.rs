@@ -94,6 +94,15 @@ pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<
     out.flush()
 }
 
+/// A part of a document as text, without a head and in one line, for programs that take documents
+/// apart.
+///
+/// # Errors
+/// If the part cannot be written.
+pub fn part_as_json(part: &impl Serialize) -> io::Result<String> {
+    Ok(serde_json::to_string(part)?)
+}
+
 /// A verdict with its number: `verdict`, `margin`, `within_tolerance`, and a `reason` if it is
 /// undecided.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -36,8 +36,8 @@ pub use html::{
 pub use recording::{Frame, Recording};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
 pub use tables::{
-    MatrixTable, ReactionTable, Selection, TableError, TrajectoryTable, modes_table,
-    tolerance_table,
+    Column, MatrixTable, ReactionTable, Selection, TableError, Trajectory, TrajectoryTable,
+    modes_table, reaction_columns, tolerance_table,
 };
 pub use tolerance::tolerance_page;
 pub use work_precision::{

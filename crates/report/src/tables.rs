@@ -16,9 +16,9 @@ use std::io::{self, BufWriter, Write};
 use serde::Serialize;
 
 pub use linearise::{MatrixTable, modes_table};
-pub use reactions::{ReactionTable, Selection};
+pub use reactions::{ReactionTable, Selection, reaction_columns};
 pub use tolerance::tolerance_table;
-pub use trajectory::TrajectoryTable;
+pub use trajectory::{Column, Trajectory, TrajectoryTable};
 
 /// Reason why a table or a row cannot be written.
 #[derive(Debug, thiserror::Error)]

@@ -43,6 +43,19 @@ pub struct ReactionVerdict {
     pub directions_left_out: f64,
 }
 
+impl ReactionVerdict {
+    /// Whether a component of the reaction is unique, by its name: one that is zero under any load
+    /// is; the named component of a definition, as `N` of a knife edge, is if the wrench is.
+    #[must_use]
+    pub fn determines(&self, component: &str) -> bool {
+        if self.wrench.verdict.is_unique() || self.zero_components.contains(&component) {
+            return true;
+        }
+        let mut components = self.components.iter();
+        components.any(|c| c.name == component && c.judgement.verdict.is_unique())
+    }
+}
+
 /// The verdict on one row.
 #[derive(Clone, Debug)]
 pub struct RowVerdict {

@@ -238,13 +238,17 @@ impl<'m> RunEquations<'m> {
             motion: &mut self.motion,
             lambda: None,
         };
-        row(&mut Sample {
+        let events = &self.record.events[self.record.shown..];
+        let shown = row(&mut Sample {
             t,
             q,
             v,
             work,
+            events,
             source: Source::Motion(source),
-        })
+        });
+        self.record.shown = self.record.events.len();
+        shown
     }
 
     /// The motion and its linear systems.

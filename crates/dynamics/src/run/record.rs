@@ -17,6 +17,8 @@ pub(super) struct Record {
     pub(super) normalisations: u64,
     pub(super) min_pivot_ratio: f64,
     pub(super) events: Vec<Event>,
+    /// Number of events that rows have shown.
+    pub(super) shown: usize,
     /// Whether the motion is unique at a passage, by the number of dependent rows.
     pub(super) uniqueness: Vec<(usize, String)>,
 }
@@ -31,6 +33,7 @@ impl Record {
             normalisations: 0,
             min_pivot_ratio: f64::INFINITY,
             events: Vec::new(),
+            shown: 0,
             uniqueness: Vec::new(),
         }
     }

@@ -3,6 +3,7 @@
 use model::{Mechanism, Reaction, System};
 
 use crate::error::MotionFault;
+use crate::events::Event;
 use crate::motion::KeptRowMotion;
 
 /// One row of output: a state on the constraints, and values computed from it on request.
@@ -15,6 +16,9 @@ pub struct Sample<'s, 'm> {
     pub v: &'s [f64],
     /// Work of drives and applied forces since the start (J), without the weight.
     pub work: f64,
+    /// Events that were found since the row before; their times may be later than that of the row,
+    /// by less than a step.
+    pub events: &'s [Event],
     pub(super) source: Source<'s, 'm>,
 }
 

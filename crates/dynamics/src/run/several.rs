@@ -14,8 +14,9 @@ use super::caller::{ShowRow, Stop, Watch};
 use super::component::run_component;
 use super::permits::Permits;
 use super::sample::{Sample, Source, Values, left_out};
-use super::summary::{ComponentSummary, Failure, Summary};
+use super::summary::{ComponentSummary, Failure, Summary, WholeEvents};
 use crate::error::{MotionError, MotionFault};
+use crate::events::Event;
 use crate::limits::AHEAD;
 use crate::plan::Plan;
 
@@ -25,6 +26,7 @@ struct Row {
     q: Vec<f64>,
     v: Vec<f64>,
     work: f64,
+    events: Vec<Event>,
     values: Values,
 }
 
@@ -99,6 +101,7 @@ fn tell(sample: &mut Sample<'_, '_>, send: impl Fn(Row) -> bool) -> ControlFlow<
         q: sample.q.to_vec(),
         v: sample.v.to_vec(),
         work: sample.work,
+        events: sample.events.to_vec(),
         values: sample.values(),
     };
     if send(row) {
@@ -117,14 +120,19 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
         .map(|k| left_out(mechanism, k))
         .collect();
     let (mut q, mut v) = (vec![0.0; layout.n_q], vec![0.0; layout.n_v]);
+    let rows = links.iter().map(|link| link.places.rows.as_slice());
+    let dropped = plan.components.iter();
+    let dropped = dropped.map(|c| c.prepared().decision.dropped.as_slice());
+    let mut whole = WholeEvents::new(rows.zip(dropped));
     loop {
+        let mut found: Vec<(usize, Event)> = Vec::new();
         let (mut time, mut work) = (None, 0.0);
         let mut values = Values {
             acceleration: Ok(vec![f64::NAN; layout.n_v]),
             multipliers: Ok(vec![f64::NAN; layout.rows()]),
             reactions: Ok(nobody.clone()),
         };
-        for Link { places, rows } in links {
+        for (k, Link { places, rows }) in links.iter().enumerate() {
             // A component that has ended has no more rows.
             let Ok(own) = rows.recv() else { return None };
             assert!(
@@ -134,6 +142,7 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
             );
             time = Some(own.t);
             work += own.work;
+            found.extend(own.events.into_iter().map(|event| (k, event)));
             spread(&own.q, &places.coordinates, &mut q);
             spread(&own.v, &places.velocities, &mut v);
             let (own, all) = (own.values, &mut values);
@@ -141,11 +150,15 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
             gather(own.multipliers, &places.rows, &mut all.multipliers);
             gather(own.reactions, &places.groups, &mut all.reactions);
         }
+        found.sort_by(|(_, a), (_, b)| a.time.total_cmp(&b.time));
+        let found = found.iter().map(|(k, event)| whole.event(*k, event));
+        let events: Vec<Event> = found.collect();
         let shown = row(&mut Sample {
             t: time?,
             q: &q,
             v: &v,
             work,
+            events: &events,
             source: Source::Several(&values),
         });
         match shown {

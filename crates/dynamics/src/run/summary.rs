@@ -130,15 +130,10 @@ fn misfits(components: &[ComponentSummary]) -> Vec<Misfit> {
     all
 }
 
-/// Events of components in the order of time, with the rows and the degree of redundancy of the
-/// whole mechanism at that time.
+/// Events of components in the order of time, as events of the whole mechanism.
 fn events(components: &[ComponentSummary], dropped: &[&[usize]]) -> Vec<Event> {
-    let of_whole = |k: usize, rows: &[usize]| -> Vec<usize> {
-        rows.iter().map(|&i| components[k].places.rows[i]).collect()
-    };
-    let mut now: Vec<Vec<usize>> = (0..components.len())
-        .map(|k| of_whole(k, dropped[k]))
-        .collect();
+    let places = components.iter().map(|c| c.places.rows.as_slice());
+    let mut whole = WholeEvents::new(places.zip(dropped.iter().copied()));
     let mut all: Vec<(usize, &Event)> = components
         .iter()
         .enumerate()
@@ -146,19 +141,46 @@ fn events(components: &[ComponentSummary], dropped: &[&[usize]]) -> Vec<Event> {
         .collect();
     all.sort_by(|(_, a), (_, b)| a.time.total_cmp(&b.time));
     all.into_iter()
-        .map(|(k, event)| {
-            now[k] = of_whole(k, &event.dropped);
-            let mut dropped = now.concat();
-            dropped.sort_unstable();
-            let others = dropped.len() - event.dropped.len();
-            Event {
-                redundancy_before: event.redundancy_before + others,
-                redundancy_after: event.redundancy_after + others,
-                dropped,
-                ..event.clone()
-            }
-        })
+        .map(|(k, event)| whole.event(k, event))
         .collect()
+}
+
+/// Events of components with the rows and the degree of redundancy of the whole mechanism, in the
+/// order in which they are given.
+pub(super) struct WholeEvents<'p> {
+    /// Rows of each component in the whole.
+    places: Vec<&'p [usize]>,
+    /// Rows that each one drops, of the whole.
+    now: Vec<Vec<usize>>,
+}
+
+impl<'p> WholeEvents<'p> {
+    /// Components with the places of their rows, and the rows that they drop at the start.
+    pub(super) fn new<'d>(components: impl Iterator<Item = (&'p [usize], &'d [usize])>) -> Self {
+        let (places, now) = components
+            .map(|(places, dropped)| (places, of_whole(places, dropped)))
+            .unzip();
+        Self { places, now }
+    }
+
+    /// The next event, of component `k`.
+    pub(super) fn event(&mut self, k: usize, event: &Event) -> Event {
+        self.now[k] = of_whole(self.places[k], &event.dropped);
+        let mut dropped = self.now.concat();
+        dropped.sort_unstable();
+        let others = dropped.len() - event.dropped.len();
+        Event {
+            redundancy_before: event.redundancy_before + others,
+            redundancy_after: event.redundancy_after + others,
+            dropped,
+            ..event.clone()
+        }
+    }
+}
+
+/// Rows of a component in the whole.
+fn of_whole(places: &[usize], rows: &[usize]) -> Vec<usize> {
+    rows.iter().map(|&i| places[i]).collect()
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use model::{Mechanism, Reaction, SpaceKind, System};
 
-use super::{Table, TableError};
+use super::{Column, Table, TableError};
 
 /// The joints and drives that are written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -36,6 +36,24 @@ impl Selection {
     }
 }
 
+/// The columns of the joint or drive at this place, in the order of the rows of C.
+///
+/// # Panics
+/// If there is no such place.
+#[must_use]
+pub fn reaction_columns(mechanism: &Mechanism, place: usize) -> Vec<Column> {
+    let group = &mechanism.layout().groups[place];
+    let numbers = group.space.components().iter().copied();
+    numbers
+        .chain(group.spec.component)
+        .map(|number| Column {
+            owner: group.name.clone(),
+            kind: "reaction",
+            number,
+        })
+        .collect()
+}
+
 /// `t`, then for each joint and drive `<name>.Fx, .Fy, .T`, in space `.Fx, .Fy, .Fz, .Tx, .Ty,
 /// .Tz`, and the named component of its definition, if it has one: `.N` of a knife edge, `.drive`
 /// of a drive (s, N, N·m).
@@ -62,9 +80,7 @@ impl<W: Write> ReactionTable<W> {
         let places = selection.places(mechanism)?;
         let mut header = vec!["t".to_owned()];
         for &k in &places {
-            let columns = groups[k].space.components().iter().copied();
-            let columns = columns.chain(groups[k].spec.component);
-            header.extend(columns.map(|c| format!("{}.{c}", groups[k].name)));
+            header.extend(reaction_columns(mechanism, k).iter().map(Column::to_string));
         }
         Ok(Self {
             table: Table::new("reactions.csv", out, &header)?,

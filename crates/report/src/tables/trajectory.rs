@@ -1,72 +1,91 @@
 //! `trajectory.csv`: positions and velocities of all bodies and markers, and measures.
 
+use std::fmt;
 use std::io::Write;
 
 use model::{Marker, Mechanism, Scratch, System};
 
 use super::{Table, TableError};
 
-/// `t`, then for each body `<body>.x, .y, .angle, .vx, .vy, .omega` of the origin of its frame (s,
-/// m, rad, m/s, rad/s), in space `.x, .y, .z, .qw, .qx, .qy, .qz, .vx, .vy, .vz, .wx, .wy, .wz`
-/// (ground axes; the quaternion changes continuously, from one with w ≥ 0); then for each marker
-/// that can move its place and velocity, in the plane with `.angle` and `.omega` as a body if it
-/// has an angle; then each measure; then
-/// for each drive by a law `<drive>.force` (N) or `<drive>.torque` (N·m), on the second body of its
-/// joint.
-pub struct TrajectoryTable<'m, W: Write> {
-    table: Table<W>,
-    mechanism: &'m Mechanism,
-    /// To evaluate drives by laws, if there are any.
-    s: Option<Scratch>,
-    /// One row, reused.
-    values: Vec<f64>,
+/// A column of a trajectory or of reactions: what it is of, and which number of it. As text
+/// `<owner>.<number>`, or the owner alone.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Name of the body, marker, measure, drive or joint.
+    pub owner: String,
+    /// `body`, `marker`, `measure`, `law` or `reaction`.
+    pub kind: &'static str,
+    /// The number, as `x` or `Fx`; empty for a measure, which is one number.
+    pub number: &'static str,
 }
 
-impl<'m, W: Write> TrajectoryTable<'m, W> {
-    /// Writes the header.
-    ///
-    /// # Errors
-    /// - [`TableError::Write`]: the writer failed.
-    pub fn new(out: W, mechanism: &'m Mechanism) -> Result<Self, TableError> {
-        let mut header = vec!["t".to_owned()];
-        let columns = mechanism.space().columns();
+impl fmt::Display for Column {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.number {
+            "" => f.write_str(&self.owner),
+            number => write!(f, "{}.{number}", self.owner),
+        }
+    }
+}
+
+/// The numbers of a trajectory at one time, of a mechanism: for each body `<body>.x, .y, .angle,
+/// .vx, .vy, .omega` of the origin of its frame (m, rad, m/s, rad/s), in space `.x, .y, .z, .qw,
+/// .qx, .qy, .qz, .vx, .vy, .vz, .wx, .wy, .wz` (ground axes; the quaternion changes continuously,
+/// from one with w ≥ 0); then for each marker that can move its place and velocity, in the plane
+/// with `.angle` and `.omega` as a body if it has an angle; then each measure; then for each drive
+/// by a law `<drive>.force` (N) or `<drive>.torque` (N·m), on the second body of its joint.
+pub struct Trajectory<'m> {
+    mechanism: &'m Mechanism,
+    columns: Vec<Column>,
+    /// To evaluate drives by laws, if there are any.
+    s: Option<Scratch>,
+}
+
+impl<'m> Trajectory<'m> {
+    /// The trajectory of this mechanism.
+    #[must_use]
+    pub fn new(mechanism: &'m Mechanism) -> Self {
+        let column = |kind, owner: &str, number| Column {
+            owner: owner.to_owned(),
+            kind,
+            number,
+        };
+        let of_space = mechanism.space().columns();
+        let mut columns = Vec::new();
         for body in mechanism.bodies() {
-            let own = columns.iter();
-            header.extend(own.map(|column| format!("{}.{column}", body.name)));
+            let own = of_space.iter();
+            columns.extend(own.map(|number| column("body", &body.name, number)));
         }
         let observed = mechanism.frames().observed();
         for marker in observed.markers.iter().filter(|m| is_written(m)) {
-            let own = columns.iter().filter(|column| has_column(marker, column));
-            header.extend(own.map(|column| format!("{}.{column}", marker.name)));
+            let own = of_space.iter().filter(|number| has_column(marker, number));
+            columns.extend(own.map(|number| column("marker", &marker.name, number)));
         }
-        header.extend(observed.measures.iter().map(|m| m.name.clone()));
-        let n_columns = header.len();
+        let measures = observed.measures.iter();
+        columns.extend(measures.map(|m| column("measure", &m.name, "")));
+        let n_columns = columns.len();
         let laws = mechanism.applied_forces().law_drives();
-        header.extend(laws.map(|(name, load)| format!("{name}.{load}")));
-        Ok(Self {
-            table: Table::new("trajectory.csv", out, &header)?,
+        columns.extend(laws.map(|(name, load)| column("law", name, load)));
+        Self {
             mechanism,
-            s: (header.len() > n_columns).then(|| mechanism.scratch()),
-            values: Vec::with_capacity(header.len()),
-        })
+            s: (columns.len() > n_columns).then(|| mechanism.scratch()),
+            columns,
+        }
     }
 
-    /// Writes the state (q, v) at time t.
+    /// Its columns.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Adds its numbers for the state (q, v) at time t to `values`.
     ///
-    /// # Errors
-    /// - [`TableError::Length`]: q or v belong to another mechanism; nothing is written.
-    /// - [`TableError::Write`]: the writer failed.
-    pub fn row(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), TableError> {
-        let layout = self.mechanism.layout();
-        self.table
-            .check_length(t, "coordinates", q.len(), layout.n_q)?;
-        self.table
-            .check_length(t, "velocities", v.len(), layout.n_v)?;
-        self.values.clear();
-        self.values.push(t);
+    /// # Panics
+    /// If q and v are not those of the mechanism.
+    pub fn extend(&mut self, values: &mut Vec<f64>, t: f64, q: &[f64], v: &[f64]) {
         for body in 0..self.mechanism.bodies().len() {
-            self.values
-                .extend(self.mechanism.frames().body(body, q, v).numbers());
+            values.extend(self.mechanism.frames().body(body, q, v).numbers());
         }
         let observed = self.mechanism.frames().observed();
         let markers = observed.markers.iter().enumerate();
@@ -78,17 +97,57 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
                 .numbers()
                 .zip(self.mechanism.space().columns());
             let own = all.filter(|(_, column)| has_column(marker, column));
-            self.values.extend(own.map(|(x, _)| x));
+            values.extend(own.map(|(x, _)| x));
         }
         let measures =
             (0..observed.measures.len()).map(|k| self.mechanism.frames().measure(k, q, v));
-        self.values.extend(measures);
+        values.extend(measures);
         if let Some(s) = &mut self.s {
             self.mechanism.pose(t, q, s);
             self.mechanism.twist(v, s);
-            let laws = self.mechanism.applied_forces().of_laws(s);
-            self.values.extend(laws);
+            values.extend(self.mechanism.applied_forces().of_laws(s));
         }
+    }
+}
+
+/// `t`, then the columns of a [`Trajectory`].
+pub struct TrajectoryTable<'m, W: Write> {
+    table: Table<W>,
+    trajectory: Trajectory<'m>,
+    /// One row, reused.
+    values: Vec<f64>,
+}
+
+impl<'m, W: Write> TrajectoryTable<'m, W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn new(out: W, mechanism: &'m Mechanism) -> Result<Self, TableError> {
+        let trajectory = Trajectory::new(mechanism);
+        let columns = trajectory.columns().iter().map(Column::to_string);
+        let header: Vec<String> = std::iter::once("t".to_owned()).chain(columns).collect();
+        Ok(Self {
+            table: Table::new("trajectory.csv", out, &header)?,
+            trajectory,
+            values: Vec::with_capacity(header.len()),
+        })
+    }
+
+    /// Writes the state (q, v) at time t.
+    ///
+    /// # Errors
+    /// - [`TableError::Length`]: q or v belong to another mechanism; nothing is written.
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn row(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), TableError> {
+        let layout = self.trajectory.mechanism.layout();
+        self.table
+            .check_length(t, "coordinates", q.len(), layout.n_q)?;
+        self.table
+            .check_length(t, "velocities", v.len(), layout.n_v)?;
+        self.values.clear();
+        self.values.push(t);
+        self.trajectory.extend(&mut self.values, t, q, v);
         self.table.row(&self.values)
     }
 

@@ -1,0 +1,101 @@
+//! Texts of files, whether or not they are scenes.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use model::codes::Code;
+use scene::nearest;
+
+use crate::refusal::Refusal;
+
+/// Largest scene that is read (bytes): ten times the size of a scene with a hundred thousand
+/// bodies. An endless device must not fill the memory.
+pub const LARGEST: u64 = 1 << 28;
+
+const UNREADABLE: Code = Code::new(2);
+
+/// Number of entries of a directory that are searched for a similar name.
+const LOOKED_AT: usize = 10_000;
+
+/// The name in messages and the text of a file.
+///
+/// # Errors
+/// The file cannot be read, with the name of one beside it that was probably meant, it is too large
+/// for a scene, or it is not UTF-8.
+pub fn of_file(path: &Path) -> Result<(String, String), Refusal> {
+    let name = path.display().to_string();
+    let bytes = File::open(path).and_then(bounded);
+    let bytes = bytes.map_err(|e| unreadable(path, &e))?;
+    Ok((name.clone(), text(&name, bytes)?))
+}
+
+/// The text of a stream with this name in messages.
+///
+/// # Errors
+/// As [`of_file`].
+pub fn of_stream(name: &str, stream: impl Read) -> Result<String, Refusal> {
+    let bytes = bounded(stream).map_err(|e| unread(name, &e, ""))?;
+    text(name, bytes)
+}
+
+fn text(name: &str, bytes: Vec<u8>) -> Result<String, Refusal> {
+    if bytes.len() as u64 > LARGEST {
+        let largest = LARGEST >> 20;
+        let message = format!("`{name}` is too large for a scene: more than {largest} MiB");
+        return Err(Refusal::input(message).coded(UNREADABLE));
+    }
+    String::from_utf8(bytes).map_err(|e| {
+        let (line, column) = end_of(&e.as_bytes()[..e.utf8_error().valid_up_to()]);
+        let message = format!("{name}:{line}:{column}: not UTF-8: save the file as UTF-8");
+        Refusal::input(message).coded(UNREADABLE)
+    })
+}
+
+/// A file that cannot be read, with the scene in its directory that was probably meant.
+#[must_use]
+pub fn unreadable(path: &Path, e: &io::Error) -> Refusal {
+    let near = match e.kind() {
+        io::ErrorKind::NotFound => scene_beside(path),
+        _ => None,
+    };
+    let advice = near.map_or_else(String::new, |near| {
+        format!("; did you mean `{}`?", near.display())
+    });
+    unread(&path.display().to_string(), e, &advice)
+}
+
+fn unread(name: &str, e: &io::Error, advice: &str) -> Refusal {
+    Refusal::input(format!("cannot read `{name}`: {e}{advice}")).coded(UNREADABLE)
+}
+
+/// The scene in the directory of a path whose name is nearest to that of the path.
+fn scene_beside(path: &Path) -> Option<PathBuf> {
+    let directory = match path.parent() {
+        Some(parent) if parent.as_os_str() != "" => parent,
+        _ => Path::new("."),
+    };
+    let entries = fs::read_dir(directory).ok()?.take(LOOKED_AT).flatten();
+    let scenes = entries.map(|entry| PathBuf::from(entry.file_name()));
+    let scenes = scenes.filter(|file| file.extension().is_some_and(|end| end == "toml"));
+    let stem = |file: &Path| Some(file.file_stem()?.to_str()?.to_owned());
+    let mut stems: Vec<String> = scenes.filter_map(|file| stem(&file)).collect();
+    // The system lists a directory in no defined order.
+    stems.sort_unstable();
+    let near = nearest(&stem(path)?, stems.iter().map(String::as_str))?;
+    Some(path.with_file_name(format!("{near}.toml")))
+}
+
+/// Reads all bytes, but at most one more than a scene may have.
+fn bounded(reader: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    reader.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Line and column just after the last valid character of a text, both from 1.
+fn end_of(text: &[u8]) -> (usize, usize) {
+    let text = String::from_utf8_lossy(text);
+    let last = text.rsplit('\n').next().unwrap_or_default();
+    (text.matches('\n').count() + 1, last.chars().count() + 1)
+}

@@ -1,0 +1,104 @@
+"""Builds the wheel of the package and installs it into an environment of its own.
+
+`python python/build.py` from the root, or from anywhere: the environment is `python/target/venv`,
+the wheel goes to `python/target/wheels`. The stubs of the private module are made of the compiled
+module and compared with `package/pfaff/_pfaff.pyi`; `--write-stubs` writes them. `--quick` compiles
+faster, for tests: with little optimisation. Needs Python >= 3.10 with venv and pip, cargo, and on the
+first run the network.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+TARGET = HERE / "target"
+VENV = TARGET / "venv"
+WHEELS = TARGET / "wheels"
+STUBS = HERE / "package" / "pfaff" / "_pfaff.pyi"
+HEADING = "# Written by `python python/build.py --write-stubs` from the compiled module.\n\n"
+LICENCES = ("LICENSE-APACHE", "LICENSE-MIT")
+
+
+def interpreter() -> Path:
+    """The interpreter of the environment."""
+    windows = VENV / "Scripts" / "python.exe"
+    return windows if windows.exists() else VENV / "bin" / "python"
+
+
+def run(*command: str | Path) -> None:
+    """Runs a command in this folder, shows it, and ends with its code if it fails."""
+    words = [str(word) for word in command]
+    print("+", " ".join(words), flush=True)
+    done = subprocess.run(words, cwd=HERE, check=False)
+    if done.returncode != 0:
+        sys.exit(done.returncode)
+
+
+def environment(python: str) -> None:
+    """Makes the environment, if it is not there, and installs what is pinned."""
+    if not interpreter().exists():
+        run(python, "-m", "venv", VENV)
+    pip = (interpreter(), "-m", "pip", "--disable-pip-version-check", "install", "--quiet")
+    run(*pip, "--requirement", HERE / "requirements.txt")
+
+
+def wheel(profile: str) -> Path:
+    """Builds the wheel."""
+    shutil.rmtree(WHEELS, ignore_errors=True)
+    for name in LICENCES:
+        shutil.copyfile(HERE.parent / name, HERE / name)
+    options = ["--profile", profile, "--out", str(WHEELS)]
+    if profile == "release":
+        options.append("--strip")
+    begun = time.monotonic()
+    try:
+        run(interpreter(), "-m", "maturin", "build", *options)
+    finally:
+        for name in LICENCES:
+            (HERE / name).unlink()
+    (made,) = WHEELS.glob("*.whl")
+    size = made.stat().st_size / 1e6
+    print(f"{made.name}: {size:.2f} MB in {time.monotonic() - begun:.0f} s", flush=True)
+    return made
+
+
+def stubs(profile: str, write: bool) -> None:
+    """Compares the stubs of the private module with the compiled one, or writes them."""
+    folder = TARGET / "stubs"
+    shutil.rmtree(folder, ignore_errors=True)
+    options = ("--profile", profile, "--out", folder)
+    run(interpreter(), "-m", "maturin", "generate-stubs", *options)
+    (made,) = folder.rglob("*.pyi")
+    text = HEADING + made.read_text(encoding="utf-8")
+    if write:
+        STUBS.write_text(text, encoding="utf-8")
+    elif text != STUBS.read_text(encoding="utf-8"):
+        sys.exit(f"{STUBS} is not that of the module: build.py --write-stubs writes it")
+
+
+def main() -> None:
+    """The command line."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("--python", default=sys.executable, help="interpreter of the environment")
+    parser.add_argument("--quick", action="store_true", help="compile faster, for tests")
+    parser.add_argument("--write-stubs", action="store_true", help="write the stubs anew")
+    parser.add_argument("--environment", action="store_true", help="make the environment alone")
+    arguments = parser.parse_args()
+    environment(arguments.python)
+    if arguments.environment:
+        return
+    profile = "quick" if arguments.quick else "release"
+    stubs(profile, arguments.write_stubs)
+    made = wheel(profile)
+    pip = (interpreter(), "-m", "pip", "--disable-pip-version-check", "install", "--quiet")
+    run(*pip, "--force-reinstall", "--no-deps", made)
+
+
+if __name__ == "__main__":
+    main()

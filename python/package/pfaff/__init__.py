@@ -1,0 +1,43 @@
+"""Mechanisms with redundant constraints: how they move, and which joint reactions are unique.
+
+>>> import pfaff
+>>> door = (
+...     pfaff.Scene("door on two hinges", space="plane")
+...     .body("leaf", mass=20.0, inertia=5.0)
+...     .joint("upper", "revolute", ["ground", "leaf"], at=[0.0, 1.0])
+...     .joint("lower", "revolute", ["ground", "leaf"], at=[0.0, -1.0])
+... )
+>>> door.analyze().verdicts["upper"].unique
+False
+
+A scene is a text, as in a file, and does not change: methods return new ones. Answers are those of
+the command ``pfaff``, in SI units and radians. See ``docs/book/python.md``.
+"""
+
+from ._analysis import Analysis, ComponentVerdict, GroupVerdict, Verdict
+from ._errors import ComputationError, Error, InputError, InternalError, Place, SceneError
+from ._linearisation import Linearisation
+from ._pfaff import __version__
+from ._run import BodyMotion, Event, Reaction, Run
+from ._scene import Matrices, Scene
+
+__all__ = [
+    "Analysis",
+    "BodyMotion",
+    "ComponentVerdict",
+    "ComputationError",
+    "Error",
+    "Event",
+    "GroupVerdict",
+    "InputError",
+    "InternalError",
+    "Linearisation",
+    "Matrices",
+    "Place",
+    "Reaction",
+    "Run",
+    "Scene",
+    "SceneError",
+    "Verdict",
+    "__version__",
+]

@@ -1,0 +1,333 @@
+"""Verdicts: which reactions are unique, and what would make others so."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._errors import wrong
+
+if TYPE_CHECKING:
+    from . import _pfaff
+
+Array = NDArray[np.float64]
+Point = Sequence[float] | str
+"""Coordinates (m, ground axes), or the name of a marker."""
+Allow = str | Sequence[int]
+"""``"sensible"``, ``"whole"``, ``"rows"``, or rows that may be deleted, from 1."""
+
+
+@dataclass(frozen=True)
+class ComponentVerdict:
+    """The verdict on one component."""
+
+    name: str
+    verdict: str
+    """``unique``, ``not_unique`` or ``undecided``."""
+    margin: float
+    """Distance from being unique; rounding for a unique one."""
+    within_tolerance: bool
+    """Whether it is unique only within the tolerance that is stated."""
+
+    @property
+    def unique(self) -> bool:
+        """Whether it is unique."""
+        return self.verdict == "unique"
+
+
+def _components(of: Iterable[Mapping[str, Any]]) -> dict[str, ComponentVerdict]:
+    return {
+        c["name"]: ComponentVerdict(c["name"], c["verdict"], c["margin"], c["within_tolerance"])
+        for c in of
+    }
+
+
+class Verdict:
+    """The verdict on the reaction of a joint or drive."""
+
+    __slots__ = ("_analysis", "_word", "name")
+
+    def __init__(self, analysis: Analysis, name: str, word: str) -> None:
+        self._analysis = analysis
+        self._word = word
+        self.name = name
+        """Its name."""
+
+    @property
+    def verdict(self) -> str:
+        """``unique``, ``not_unique`` or ``undecided``."""
+        return self._word
+
+    @property
+    def unique(self) -> bool:
+        """Whether the mechanism determines the whole reaction."""
+        return self._word == "unique"
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """Everything that is known of it: its entry of ``pfaff analyze --json``."""
+        return self._analysis._reactions[self.name]
+
+    @property
+    def type(self) -> str:
+        """The type of the joint, as in scenes."""
+        kind: str = self.document["type"]
+        return kind
+
+    @property
+    def rows(self) -> list[int]:
+        """Its rows, from 1."""
+        rows: list[int] = self.document["rows"]
+        return rows
+
+    @property
+    def margin(self) -> float:
+        """Distance from being unique; rounding for a unique reaction."""
+        margin: float = self.document["margin"]
+        return margin
+
+    @property
+    def components(self) -> dict[str, ComponentVerdict]:
+        """The verdicts on its components that are not zero under every load."""
+        return _components(self.document["components"])
+
+    @property
+    def directions(self) -> Array | None:
+        """A basis of the directions in which the reaction is unique, one in each row.
+
+        The columns are the components. ``None`` if their number is undecided.
+        """
+        directions = self.document["unique_directions"]
+        if directions is None:
+            return None
+        return np.array(directions, dtype=np.float64).reshape(len(directions), -1)
+
+    @property
+    def fragile(self) -> bool:
+        """Whether it is unique, but made of the last digits of the data."""
+        fragile: bool = self.document["fragile"]
+        return fragile
+
+    def explain(self) -> str:
+        """Why it is not unique; empty if it is."""
+        words: str | None = self.document.get("explanation")
+        return words or ""
+
+    def moment(self, about: Point) -> dict[str, ComponentVerdict]:
+        """The verdicts on the moment about a point."""
+        return self._analysis.moment(self.name, about)
+
+    def make_unique(self, allow: Allow = "sensible") -> dict[str, Any]:
+        """What would make it unique; see :meth:`Analysis.make_unique`."""
+        return self._analysis.make_unique(self.name, allow)
+
+    def __repr__(self) -> str:
+        return f"<pfaff.Verdict {self.name!r}: {self.verdict}>"
+
+
+class _Verdicts(Mapping[str, Verdict]):
+    """Verdicts by name; an unknown name is refused with the nearest one."""
+
+    __slots__ = ("_analysis", "_of")
+
+    def __init__(self, analysis: Analysis, words: Iterable[tuple[str, str]]) -> None:
+        self._analysis = analysis
+        self._of = {name: Verdict(analysis, name, word) for name, word in words}
+
+    def __getitem__(self, name: str) -> Verdict:
+        if name not in self._of:
+            self._analysis._of.check_name(name)
+        return self._of[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._of
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._of)
+
+    def __len__(self) -> int:
+        return len(self._of)
+
+    def __repr__(self) -> str:
+        words = ", ".join(f"{name!r}: {verdict.verdict}" for name, verdict in self._of.items())
+        return f"{{{words}}}"
+
+
+@dataclass(frozen=True)
+class GroupVerdict:
+    """The verdict on a sum of reactions, or of their components."""
+
+    name: str
+    verdict: str
+    margin: float
+    components: dict[str, ComponentVerdict]
+    """For a sum of wrenches, each of its components."""
+    values: dict[str, float]
+    """The numbers that are unique."""
+
+    @property
+    def unique(self) -> bool:
+        """Whether the mechanism determines it."""
+        return self.verdict == "unique"
+
+    @property
+    def value(self) -> float:
+        """The number of a sum of components; NaN if it is not unique."""
+        return self.values.get("sum", float("nan"))
+
+
+class Analysis:
+    """The verdicts at one configuration."""
+
+    def __init__(self, of: _pfaff.Analysis) -> None:
+        self._of = of
+        self._document: dict[str, Any] | None = None
+        self._named: dict[str, dict[str, Any]] | None = None
+        self._verdicts = _Verdicts(self, of.words())
+
+    @property
+    def verdicts(self) -> Mapping[str, Verdict]:
+        """The verdict of each joint and drive, in the order of the rows."""
+        return self._verdicts
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The document of ``pfaff analyze --json``, made once."""
+        if self._document is None:
+            self._document = json.loads(self._of.document([]))
+        return self._document
+
+    @property
+    def _reactions(self) -> dict[str, dict[str, Any]]:
+        if self._named is None:
+            self._named = {r["name"]: r for r in self.document["reactions"]}
+        return self._named
+
+    @property
+    def rank(self) -> int:
+        """Number of independent rows."""
+        return self._of.ranks()[0]
+
+    @property
+    def redundancy(self) -> int:
+        """Number of rows too many."""
+        return self._of.ranks()[1]
+
+    @property
+    def mobility(self) -> int:
+        """Degrees of freedom."""
+        return self._of.ranks()[2]
+
+    @property
+    def q(self) -> Array:
+        """Coordinates."""
+        return np.array(self._of.state()[0])
+
+    @property
+    def v(self) -> Array:
+        """Velocities; empty if none are known that satisfy the constraints."""
+        return np.array(self._of.state()[1])
+
+    @property
+    def warnings(self) -> list[str]:
+        """What else has to be known."""
+        warnings: list[str] = self.document["warnings"]
+        return warnings
+
+    def combine(self, sum: str) -> GroupVerdict:
+        """The verdict on a sum, as ``"W3.N + W4.N"``, or ``"W3 + W4"`` of whole wrenches."""
+        found = json.loads(self._of.combine(sum))
+        values = {value["name"]: value["value"] for value in found.get("values", [])}
+        components = _components(found.get("components", []))
+        return GroupVerdict(sum, found["verdict"], found["margin"], components, values)
+
+    def moment(self, name: str, about: Point) -> dict[str, ComponentVerdict]:
+        """The verdicts on the moment of a reaction about a point."""
+        point = about if isinstance(about, str) else [float(x) for x in about]
+        return _components(json.loads(self._of.moment(name, point))["components"])
+
+    def make_unique(self, name: str, allow: Allow = "sensible") -> dict[str, Any]:
+        """The smallest deletions of rows that make a reaction unique, without change of motion.
+
+        The entry of ``pfaff analyze --make-unique --json``: ``ways`` with ``rows`` and ``text``,
+        and whether they are ``complete``.
+        """
+        allowed = allow if isinstance(allow, str) else list(allow)
+        found: dict[str, Any] = json.loads(self._of.make_unique(name, allowed))
+        return found
+
+    def eliminations(self, limit: int = 100) -> dict[str, Any]:
+        """Sets of rows that can be deleted without a change of motion: ``count`` and ``sets``."""
+        found: dict[str, Any] = json.loads(self._of.eliminations(limit))
+        return found
+
+    def along(self, t_end: float | None = None) -> dict[str, Any]:
+        """The verdicts along the motion: ``along`` of ``pfaff analyze --along --json``."""
+        found: dict[str, Any] = json.loads(self._of.along(t_end))
+        return found
+
+    def explain(self) -> list[str]:
+        """Why reactions are not unique: a sentence for each dependency of rows."""
+        return [dependency["text"] for dependency in self.document["dependencies"]]
+
+    def reactions(
+        self,
+        choose: str | Sequence[int] | Mapping[str, float] | None = None,
+        *,
+        length: float | None = None,
+    ) -> dict[str, dict[str, float]]:
+        """The numbers of the reactions by name and component.
+
+        What is not unique is NaN, unless a choice is made: ``"minimum-norm"``, with the arm
+        ``length`` (m) on which a torque counts as a force; rows to drop, from 1; or compliances
+        (m/N) of joints by name.
+        """
+        choice: float | None | list[int] | list[tuple[str, float, float]] = length
+        if isinstance(choose, Mapping):
+            choice = [(name, float(x), 0.0) for name, x in choose.items()]
+        elif choose is not None and not isinstance(choose, str):
+            choice = list(choose)
+        elif choose not in (None, "minimum-norm"):
+            raise wrong(
+                f"choose is `{choose}`, need `minimum-norm`, rows to drop, or compliances by name"
+            )
+        hidden = choose is None
+        return {
+            r["name"]: {
+                c["name"]: float("nan") if hidden and "choice" in c else c["value"]
+                for c in r["components"]
+            }
+            for r in json.loads(self._of.distribution(choice))["reactions"]
+        }
+
+    def __repr__(self) -> str:
+        rank, redundancy, mobility = self._of.ranks()
+        return f"<pfaff.Analysis: rank {rank}, redundancy {redundancy}, mobility {mobility}>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        rows = [_row("th", ["reaction", "type", "rows", "verdict", "components"])]
+        for name, verdict in self.verdicts.items():
+            word = verdict.verdict.replace("_", " ") + (", fragile" if verdict.fragile else "")
+            parts = verdict.components.values()
+            open_ = "" if verdict.unique else ", ".join(f"{c.name} {c.verdict}" for c in parts)
+            numbers = ", ".join(map(str, verdict.rows))
+            cells = [name, verdict.type, numbers, word, open_.replace("_", " ")]
+            rows.append(_row("td", cells))
+        heading = escape(
+            f"{self.document['scene']} at t = {self.document['time']} s: rank {self.rank}, "
+            f"redundancy {self.redundancy}, mobility {self.mobility}"
+        )
+        return f"<p>{heading}</p><table>{''.join(rows)}</table>"
+
+
+def _row(tag: str, cells: Iterable[str]) -> str:
+    from html import escape
+
+    return f"<tr>{''.join(f'<{tag}>{escape(cell)}</{tag}>' for cell in cells)}</tr>"

@@ -1,0 +1,55 @@
+"""Small motions about a state."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Linearisation:
+    """``ẋ = A·x + B·u`` about a state."""
+
+    def __init__(self, text: str) -> None:
+        self.document: dict[str, Any] = json.loads(text)
+        """The document of ``pfaff linearise --json``."""
+        self.states: list[str] = [state["name"] for state in self.document["states"]]
+        """Names of the states x: positions, then velocities."""
+        self.inputs: list[str] = [f"{u['name']}.{u['what']}" for u in self.document["inputs"]]
+        """Names of the inputs u."""
+        self.A: Array = _matrix(self.document["a"], len(self.states))
+        """The matrix of the states."""
+        self.B: Array = _matrix(self.document["b"], len(self.inputs))
+        """The matrix of the inputs."""
+
+    @property
+    def stability(self) -> str | None:
+        """``stable``, ``unstable``, or ``undecided`` at first order."""
+        word: str | None = self.document["stability"]
+        return word
+
+    @property
+    def eigenvalues(self) -> NDArray[np.complex128]:
+        """Eigenvalues (1/s), those that grow fastest first; a conjugate pair once."""
+        modes = self.document["modes"] or []
+        return np.array([complex(m["real"], m["imaginary"]) for m in modes], dtype=np.complex128)
+
+    @property
+    def second_order(self) -> tuple[Array, Array, Array] | None:
+        """M, D and K of ``M·ÿ + D·ẏ + K·y``, if there are such."""
+        of = self.document["second_order"]
+        if of is None:
+            return None
+        n = self.document["positions"]
+        return (_matrix(of["mass"], n), _matrix(of["damping"], n), _matrix(of["stiffness"], n))
+
+    def __repr__(self) -> str:
+        return f"<pfaff.Linearisation: {len(self.states)} states, {self.stability}>"
+
+
+def _matrix(rows: list[list[float]], columns: int) -> Array:
+    return np.array(rows, dtype=np.float64).reshape(len(rows), columns)

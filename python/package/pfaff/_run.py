@@ -1,0 +1,283 @@
+"""A run: motion and reactions as arrays."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _pfaff
+from ._errors import wrong
+
+if TYPE_CHECKING:
+    from ._scene import Scene
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened on the way."""
+
+    time: float
+    """Time (s)."""
+    kind: str
+    """As ``singular-passage`` or ``impulse``."""
+    redundancy_before: int
+    """Degree of redundancy before."""
+    redundancy_after: int
+    """Degree of redundancy after."""
+    deleted_rows: Sequence[int]
+    """Rows without multiplier after the event, from 1."""
+    text: str
+    """Description."""
+
+
+class _Columns:
+    """Columns of a table that belong to one thing. All arrays are views of the table."""
+
+    __slots__ = ("_numbers", "_table", "name")
+
+    def __init__(self, name: str, table: Array, numbers: dict[str, int]) -> None:
+        self.name = name
+        """Its name."""
+        self._table = table
+        self._numbers = numbers
+
+    @property
+    def columns(self) -> list[str]:
+        """The names of its numbers, as in the tables of the command."""
+        return list(self._numbers)
+
+    def __getitem__(self, column: str) -> Array:
+        """The values of one number."""
+        if column not in self._numbers:
+            raise _unknown(f"number of `{self.name}`", column, self._numbers)
+        return self._table[:, self._numbers[column]]
+
+    def _of(self, columns: Sequence[str]) -> Array:
+        places = [self._numbers[column] for column in columns if column in self._numbers]
+        if not places:
+            raise _unknown(f"number of `{self.name}`", columns[0], self._numbers)
+        return self._table[:, places[0] : places[-1] + 1]
+
+
+_C = TypeVar("_C", bound=_Columns)
+
+
+class BodyMotion(_Columns):
+    """The motion of a body or a marker: of the origin of its frame, in ground axes."""
+
+    __slots__ = ()
+
+    @property
+    def position(self) -> Array:
+        """Positions (m), 2 or 3 columns."""
+        return self._of(("x", "y", "z"))
+
+    @property
+    def angle(self) -> Array:
+        """Angles in the plane (rad), not reduced to one revolution."""
+        return self["angle"]
+
+    @property
+    def orientation(self) -> Array:
+        """Quaternions in space, the real part first."""
+        return self._of(("qw", "qx", "qy", "qz"))
+
+    @property
+    def velocity(self) -> Array:
+        """Velocities (m/s), 2 or 3 columns."""
+        return self._of(("vx", "vy", "vz"))
+
+    @property
+    def angular_velocity(self) -> Array:
+        """Angular velocities (rad/s): one number in the plane, 3 columns in space."""
+        return self["omega"] if "omega" in self._numbers else self._of(("wx", "wy", "wz"))
+
+
+class Reaction(_Columns):
+    """The reaction on the first body of a joint or drive, about its place, in ground axes."""
+
+    __slots__ = ()
+
+    @property
+    def force(self) -> Array:
+        """Forces (N), 2 or 3 columns; NaN where they are not unique."""
+        return self._of(("Fx", "Fy", "Fz"))
+
+    @property
+    def torque(self) -> Array:
+        """Torques (N·m): one number in the plane, 3 columns in space; NaN as for forces."""
+        return self["T"] if "T" in self._numbers else self._of(("Tx", "Ty", "Tz"))
+
+
+class Run:
+    """A run with its rows. Arrays have one row for each time, are made once and read-only."""
+
+    def __init__(self, of: _pfaff.Run, scene: Scene, options: dict[str, Any]) -> None:
+        self._options = options
+        self.scene = scene
+        """The scene that was run."""
+        self.t: Array = of.t
+        """Times (s)."""
+        self.q: Array = of.q
+        """Coordinates."""
+        self.v: Array = of.v
+        """Velocities."""
+        self.trajectory: Array = of.trajectory
+        """The columns of ``trajectory.csv`` after ``t``."""
+        self.reactions: Array = of.reactions
+        """The columns of ``reactions.csv`` after ``t``; NaN for what is not unique."""
+        for array in (self.t, self.q, self.v, self.trajectory, self.reactions):
+            array.flags.writeable = False
+        self.document: dict[str, Any] = json.loads(of.document)
+        """The summary, as ``summary.json``."""
+        self.columns: list[str] = [_heading(owner, number) for _, owner, number in of.columns]
+        """Names of the columns of :attr:`trajectory`."""
+        self.reaction_columns: list[str] = [
+            _heading(owner, number) for _, owner, number in of.reaction_columns
+        ]
+        """Names of the columns of :attr:`reactions`."""
+        self._bodies = _grouped(of.columns, self.trajectory, BodyMotion, ("body",))
+        self._markers = _grouped(of.columns, self.trajectory, BodyMotion, ("marker",))
+        self._others = _grouped(of.columns, self.trajectory, _Columns, ("measure", "law"))
+        self._reactions = _grouped(of.reaction_columns, self.reactions, Reaction, ("reaction",))
+
+    @property
+    def bodies(self) -> list[str]:
+        """Names of the bodies."""
+        return list(self._bodies)
+
+    @property
+    def markers(self) -> list[str]:
+        """Names of the markers that can move."""
+        return list(self._markers)
+
+    @property
+    def measures(self) -> list[str]:
+        """Names of measures, and of drives by laws."""
+        return list(self._others)
+
+    @property
+    def joints(self) -> list[str]:
+        """Names of joints and drives."""
+        return list(self._reactions)
+
+    @property
+    def partial(self) -> bool:
+        """Whether the run ended before its last time."""
+        partial: bool = self.document["partial"]
+        return partial
+
+    @property
+    def events(self) -> list[Event]:
+        """What happened on the way."""
+        return [Event(**event) for event in self.document["events"]]
+
+    def body(self, name: str) -> BodyMotion:
+        """The motion of a body."""
+        return _named("body", name, self._bodies)
+
+    def marker(self, name: str) -> BodyMotion:
+        """The motion of a marker."""
+        return _named("marker", name, self._markers)
+
+    def measure(self, name: str) -> Array:
+        """The values of a measure, or the force or torque (N, N·m) of a drive by a law."""
+        of = _named("measure", name, self._others)
+        return of[of.columns[0]]
+
+    def reaction(self, name: str) -> Reaction:
+        """The reaction of a joint or drive."""
+        return _named("joint or drive", name, self._reactions)
+
+    def report(self, path: str | os.PathLike[str]) -> None:
+        """Writes the page of this run for any browser. The run is made again for it."""
+        self.scene.report(path, **self._options)
+
+    def to_pandas(self) -> Any:
+        """All columns as a ``pandas.DataFrame`` with the times as its index."""
+        import pandas
+
+        index = pandas.Index(self.t, name="t")
+        table = np.hstack((self.trajectory, self.reactions))
+        return pandas.DataFrame(table, index=index, columns=self.columns + self.reaction_columns)
+
+    def to_polars(self) -> Any:
+        """All columns as a ``polars.DataFrame``, the first of which is ``t``."""
+        import polars
+
+        table = np.column_stack((self.t, self.trajectory, self.reactions))
+        schema = ["t", *self.columns, *self.reaction_columns]
+        return polars.from_numpy(table, schema=schema, orient="row")
+
+    def plot(self, *columns: str, ax: Any = None) -> Any:
+        """Plots columns against time, by their names in the tables; returns the axes.
+
+        Without names: the positions of all bodies. Needs matplotlib.
+        """
+        wanted: Iterable[str] = columns or [
+            heading for heading in self.columns if heading.endswith((".x", ".y", ".z"))
+        ]
+        lines = [(heading, self._column(heading)) for heading in wanted]
+        if ax is None:
+            from matplotlib import pyplot
+
+            _, ax = pyplot.subplots()
+        for heading, values in lines:
+            ax.plot(self.t, values, label=heading)
+        ax.set_xlabel("t (s)")
+        ax.legend()
+        return ax
+
+    def _column(self, heading: str) -> Array:
+        for headings, table in (
+            (self.columns, self.trajectory),
+            (self.reaction_columns, self.reactions),
+        ):
+            if heading in headings:
+                return table[:, headings.index(heading)]
+        raise _unknown("column", heading, [*self.columns, *self.reaction_columns])
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def __repr__(self) -> str:
+        end = float(self.t[-1]) if len(self.t) else 0.0
+        return f"<pfaff.Run to t = {end} s, {len(self.t)} rows>"
+
+    def _repr_html_(self) -> str:
+        return f"<p>{len(self.t)} rows</p>{self.scene._repr_html_()}"
+
+
+def _heading(owner: str, number: str) -> str:
+    return f"{owner}.{number}" if number else owner
+
+
+def _grouped(
+    columns: Iterable[tuple[str, str, str]], table: Array, made: type[_C], kinds: Sequence[str]
+) -> dict[str, _C]:
+    groups: dict[str, dict[str, int]] = {}
+    for place, (kind, owner, number) in enumerate(columns):
+        if kind in kinds:
+            groups.setdefault(owner, {})[number] = place
+    return {owner: made(owner, table, numbers) for owner, numbers in groups.items()}
+
+
+def _named(what: str, name: str, known: dict[str, _C]) -> _C:
+    if name not in known:
+        raise _unknown(what, name, known)
+    return known[name]
+
+
+def _unknown(what: str, name: str, known: Iterable[str]) -> Exception:
+    names = list(known)
+    near = _pfaff.nearest(str(name), names)
+    advice = f"; did you mean `{near}`?" if near else ""
+    return wrong(f"there is no {what} `{name}`; there are: {', '.join(names)}{advice}")

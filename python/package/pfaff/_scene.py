@@ -1,0 +1,417 @@
+"""A scene: its text, and what is computed of it."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _pfaff
+from . import _toml as toml
+from ._analysis import Analysis
+from ._errors import wrong
+from ._linearisation import Linearisation
+from ._run import Event, Run
+
+Array = NDArray[np.float64]
+Choice = Sequence[int] | str
+"""``"kept-rows"``, or the rows to drop, from 1."""
+Bodies = Sequence[str] | str
+
+
+class Matrices(NamedTuple):
+    """The equations ``M·a + Cᵀ·λ = Q``, ``C·a = Γ``, ``C·v = b``, ``Φ = 0`` at one state."""
+
+    C: Array
+    """A row for each constraint, a column for each velocity."""
+    M: Array
+    """The masses, square and diagonal."""
+    Gamma: Array
+    """The right-hand side of the accelerations."""
+    Q: Array
+    """Applied forces and torques."""
+    b: Array
+    """The right-hand side of the velocities."""
+    Phi: Array
+    """What the holonomic rows miss."""
+
+
+class Scene:
+    """A mechanism as a text in the format of scenes. It does not change.
+
+    Methods that add something return a new scene, and write what they are given into its text; the
+    reader of scenes judges it when something is asked of the scene, or by :meth:`check`.
+    """
+
+    __slots__ = ("_of",)
+
+    def __init__(self, name: str = "scene", *, space: str = "plane", **keys: Any) -> None:
+        """A scene without bodies.
+
+        ``keys`` are those of the table ``[scene]``, as ``gravity`` and ``tolerance``.
+        """
+        entries = {"name": name, "space": space, **keys}
+        self._of = _pfaff.Scene(f"{name}.toml", toml.table("[scene]", entries))
+
+    @classmethod
+    def _made(cls, of: _pfaff.Scene) -> Scene:
+        made = cls.__new__(cls)
+        made._of = of
+        return made
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> Scene:
+        """Reads a file in the format of scenes."""
+        return cls._made(_pfaff.Scene.from_file(os.fspath(path)))
+
+    @classmethod
+    def from_string(cls, text: str, name: str = "scene.toml") -> Scene:
+        """A scene of this text; ``name`` is that of the file in messages."""
+        return cls._made(_pfaff.Scene(name, text))
+
+    @classmethod
+    def from_mjcf(cls, path: str | os.PathLike[str] | None = None, **options: Any) -> Scene:
+        """Imports a model of MuJoCo; see :meth:`imported` for the options."""
+        return cls.imported("MJCF", path, **options)[0]
+
+    @classmethod
+    def from_urdf(cls, path: str | os.PathLike[str] | None = None, **options: Any) -> Scene:
+        """Imports a URDF; see :meth:`imported` for the options."""
+        return cls.imported("URDF", path, **options)[0]
+
+    @classmethod
+    def from_sdf(cls, path: str | os.PathLike[str] | None = None, **options: Any) -> Scene:
+        """Imports an SDF; see :meth:`imported` for the options."""
+        return cls.imported("SDF", path, **options)[0]
+
+    @classmethod
+    def imported(
+        cls,
+        format: str,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        text: str | None = None,
+        base: str = "fixed",
+        keep_fixed: bool = False,
+        snap: bool = False,
+        keyframe: str | None = None,
+        pose: Mapping[str, float] | None = None,
+        loops: str | os.PathLike[str] | None = None,
+    ) -> tuple[Scene, list[str], list[tuple[str, str, int]]]:
+        """A scene of a model of a robot, remarks on it, and what is left out: kind, subject, line.
+
+        ``format`` is ``"MJCF"``, ``"URDF"`` or ``"SDF"``. The other arguments are the options of
+        ``pfaff import``: ``base`` (``"fixed"`` or ``"free"``), ``keep_fixed``, ``snap``,
+        ``keyframe``, ``pose`` (values of joints near which loops are closed) and ``loops`` (a file
+        of loop closures of a URDF). With ``text`` in place of a file nothing is included.
+        """
+        if path is None and text is None:
+            raise wrong("need a path or a text")
+        name = "text.xml" if path is None else os.fspath(path)
+        file = None if loops is None else os.fspath(loops)
+        joints = [(joint, float(x)) for joint, x in (pose or {}).items()]
+        of, remarks, omissions = _pfaff.Scene.imported(
+            format, name, text, base, keep_fixed, snap, keyframe, joints, file
+        )
+        return cls._made(of), remarks, omissions
+
+    # The text.
+
+    @property
+    def text(self) -> str:
+        """The text, as in a file."""
+        return self._of.text
+
+    @property
+    def file(self) -> str:
+        """The name of the text in messages."""
+        return self._of.name
+
+    @property
+    def name(self) -> str:
+        """The name that the scene gives itself."""
+        return self._of.names()[0]
+
+    @property
+    def bodies(self) -> list[str]:
+        """Names of the bodies."""
+        return self._of.names()[1]
+
+    @property
+    def joints(self) -> list[str]:
+        """Names of joints and drives, in the order of their rows."""
+        return self._of.names()[2]
+
+    def __repr__(self) -> str:
+        return f"<pfaff.Scene {self.file!r}, {self.text.count(chr(10))} lines>"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Scene):
+            return NotImplemented
+        return (self.file, self.text) == (other.file, other.text)
+
+    def __hash__(self) -> int:
+        return hash((self.file, self.text))
+
+    def __reduce__(self) -> tuple[Callable[[str, str], Scene], tuple[str, str]]:
+        return (Scene.from_string, (self.text, self.file))
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes the text into a file, for the command."""
+        with open(path, "w", encoding="utf-8", newline="\n") as file:
+            file.write(self.text)
+
+    # The builder.
+
+    def add(self, table: str, **keys: Any) -> Scene:
+        """The scene with another ``[[table]]``, as ``[[body]]``; ``None`` leaves a key out."""
+        return self._with_table(f"[[{table}]]", keys)
+
+    def set(self, table: str, **keys: Any) -> Scene:
+        """The scene with a table that occurs once, as ``[simulate]`` or ``[start]``."""
+        return self._with_table(f"[{table}]", keys)
+
+    def _with_table(self, header: str, keys: Mapping[str, Any]) -> Scene:
+        text = self.text if self.text.endswith("\n") or not self.text else f"{self.text}\n"
+        more = toml.table(header, keys)
+        return Scene._made(_pfaff.Scene(self.file, f"{text}\n{more}"))
+
+    def body(self, name: str, **keys: Any) -> Scene:
+        """The scene with another body: ``mass``, ``inertia``, ``position`` and so on."""
+        return self.add("body", name=name, **keys)
+
+    def joint(self, name: str, type: str, bodies: Bodies, **keys: Any) -> Scene:
+        """The scene with another joint: ``at``, ``axis`` and so on, as its type wants.
+
+        ``bodies`` is a list, or the one body of a joint that has only one, as a knife edge.
+        """
+        return self.add("joint", name=name, type=type, **_between(bodies), **keys)
+
+    def drive(self, name: str, **keys: Any) -> Scene:
+        """The scene with another drive."""
+        return self.add("drive", name=name, **keys)
+
+    def force(self, name: str, type: str, bodies: Bodies | None = None, **keys: Any) -> Scene:
+        """The scene with another applied force."""
+        return self.add("force", name=name, type=type, **_between(bodies), **keys)
+
+    def marker(self, name: str, **keys: Any) -> Scene:
+        """The scene with another marker."""
+        return self.add("marker", name=name, **keys)
+
+    def measure(self, name: str, **keys: Any) -> Scene:
+        """The scene with another measure."""
+        return self.add("measure", name=name, **keys)
+
+    def group(self, name: str, **keys: Any) -> Scene:
+        """The scene with another group of reactions."""
+        return self.add("group", name=name, **keys)
+
+    def parameters(self, **values: Any) -> Scene:
+        """The scene with parameters, which expressions use (``format=2``)."""
+        return self.set("parameters", **values)
+
+    def with_(self, **settings: Any) -> Scene:
+        """The scene with other numbers or expressions at these keys, as ``--set`` of the command.
+
+        >>> scene.with_(**{"joint.H.axis": [0, 1, 0], "L": 0.4})  # doctest: +SKIP
+
+        A list stands for its entries, ``axis[0]`` and so on.
+        """
+        pairs = [pair for key, item in settings.items() for pair in _entries(key, item)]
+        keys, expressions = [key for key, _ in pairs], [text for _, text in pairs]
+        return Scene._made(self._of.with_settings(keys, expressions))
+
+    # What is computed.
+
+    def check(self) -> Scene:
+        """Reads and assembles the scene, and returns it; raises everything that is wrong."""
+        self._of.check()
+        return self
+
+    def analyze(
+        self,
+        t: float = 0.0,
+        *,
+        tolerance: float | None = None,
+        angle_tolerance: float | None = None,
+        drop: Iterable[int] | None = None,
+    ) -> Analysis:
+        """The verdicts at a time of the motion (s); at 0 no run is needed.
+
+        ``tolerance`` (m) and ``angle_tolerance`` (rad) say what the numbers of the scene are known
+        to, in place of those of the scene. ``drop`` are the rows to take as the dependent ones,
+        from 1.
+        """
+        rows = None if drop is None else list(drop)
+        return Analysis(self._of.analyse(t, tolerance, angle_tolerance, rows))
+
+    def simulate(
+        self,
+        t_end: float | None = None,
+        *,
+        rtol: float | None = None,
+        atol: float | None = None,
+        max_step: float | None = None,
+        max_steps: int | None = None,
+        output_step: float | None = None,
+        method: str | None = None,
+        threads: int | None = None,
+        tolerance: float | None = None,
+        angle_tolerance: float | None = None,
+        reactions: bool | Iterable[str] = True,
+        choose: Choice | None = None,
+        on_event: Callable[[Event], object] | None = None,
+        on_row: Callable[[float], object] | None = None,
+    ) -> Run:
+        """Runs the scene; what is ``None`` is as the scene says.
+
+        ``reactions`` are all, none, or those with these names. Numbers that are not unique are NaN,
+        unless ``choose`` says by which choice they are made: ``"kept-rows"`` by the rows that the
+        run keeps, or a list of rows to drop, from 1. ``on_event`` gets each :class:`Event` at the
+        first row after it, ``on_row`` the time of each row; the run ends where one of them returns
+        ``True``. Ctrl-C is heard on the main thread.
+        """
+        options = _options(
+            t_end=t_end,
+            rtol=rtol,
+            atol=atol,
+            max_step=max_step,
+            max_steps=max_steps,
+            output_step=output_step,
+            method=method,
+            threads=threads,
+            tolerance=tolerance,
+            angle_tolerance=angle_tolerance,
+            drop=_drop(choose),
+            reactions=_wanted(reactions),
+        )
+        told = None if on_event is None else lambda text: on_event(Event(**json.loads(text)))
+        of = self._of.simulate(options, choose is not None, told, on_row)
+        run = Run(of, self, {key: x for key, x in options.items() if key != "reactions"})
+        stopped = of.stopped()
+        if stopped is not None:
+            stopped.run = run
+            raise stopped
+        return run
+
+    def simulate_into(self, directory: str | os.PathLike[str], **options: Any) -> dict[str, Any]:
+        """Runs the scene and writes the files of ``pfaff simulate`` into a directory.
+
+        Returns the summary. The options are those of :meth:`simulate` that are not callbacks.
+        """
+        if "choose" in options:
+            options["drop"] = _drop(options.pop("choose"))
+        _known(options)
+        summary = self._of.simulate_into(os.fspath(directory), _options(**options))
+        document: dict[str, Any] = json.loads(summary)
+        return document
+
+    def report(self, path: str | os.PathLike[str], **options: Any) -> None:
+        """Runs the scene and writes its page for any browser."""
+        # Imported here, as they take long to import.
+        from shutil import move
+        from tempfile import TemporaryDirectory
+
+        with TemporaryDirectory() as folder:
+            summary = self.simulate_into(folder, **options)
+            if "report.html" not in summary["files"]:
+                raise wrong("the scene wants no report: `output.report` is false")
+            move(os.path.join(folder, "report.html"), path)
+
+    def matrices(
+        self, q: ArrayLike | None = None, v: ArrayLike | None = None, t: float = 0.0
+    ) -> Matrices:
+        """C, M, Γ, Q, b and Φ at coordinates and velocities, those of the start by default."""
+        c, mass, gamma, q_applied, b, phi = self._of.matrices(_numbers("q", q), _numbers("v", v), t)
+        return Matrices(c, np.diag(mass), gamma, q_applied, b, phi)
+
+    def linearise(
+        self, t: float = 0.0, *, coordinates: Iterable[str] = (), follow: Iterable[str] = ()
+    ) -> Linearisation:
+        """Small motions about a state at rest or a steady one, as ``pfaff linearise``."""
+        return Linearisation(self._of.linearise(t, list(coordinates), list(follow)))
+
+    def _repr_html_(self) -> str:
+        return self.analyze()._repr_html_()
+
+
+def _between(bodies: Bodies | None) -> dict[str, Any]:
+    return {"body" if isinstance(bodies, str) else "bodies": bodies}
+
+
+_NONE: dict[str, Any] = dict.fromkeys(
+    (
+        "t_end",
+        "rtol",
+        "atol",
+        "max_step",
+        "max_steps",
+        "method",
+        "threads",
+        "drop",
+        "output_step",
+        "tolerance",
+        "angle_tolerance",
+        "reactions",
+    )
+)
+
+
+def _options(**options: Any) -> dict[str, Any]:
+    return {**_NONE, **options}
+
+
+def _known(options: Mapping[str, Any]) -> None:
+    """An unknown option is refused as an unknown keyword."""
+    for name in options:
+        if name not in _NONE:
+            near = _pfaff.nearest(name, list(_NONE))
+            advice = f"; did you mean `{near}`?" if near else ""
+            raise TypeError(f"there is no option `{name}`{advice}")
+
+
+def _drop(choose: Choice | None) -> list[int] | None:
+    if choose is None or choose == "kept-rows":
+        return None
+    if isinstance(choose, str):
+        raise wrong(f"choose is `{choose}`, need `kept-rows` or a list of rows, as [6, 21]")
+    return list(choose)
+
+
+def _wanted(reactions: bool | Iterable[str]) -> list[str] | None:
+    if isinstance(reactions, bool):
+        return None if reactions else []
+    return [reactions] if isinstance(reactions, str) else list(reactions)
+
+
+def _entries(key: str, item: Any) -> list[tuple[str, str]]:
+    """A key with its text; a list is its entries."""
+    if isinstance(item, str):
+        return [(key, item)]
+    if isinstance(item, (bool, np.bool_)):
+        return [(key, str(int(item)))]
+    if isinstance(item, Iterable):
+        return [pair for k, x in enumerate(item) for pair in _entries(f"{key}[{k}]", x)]
+    try:
+        return [(key, toml.number(float(item)))]
+    except (TypeError, ValueError):
+        kind = type(item).__name__
+        raise wrong(f"`{key}` is {kind}, need a number, an expression or a list") from None
+
+
+def _numbers(name: str, of: ArrayLike | None) -> list[float] | None:
+    if of is None:
+        return None
+    try:
+        array = np.asarray(of, dtype=np.float64)
+    except (TypeError, ValueError) as e:
+        raise wrong(f"{name} is no array of numbers: {e}") from None
+    if array.ndim != 1:
+        raise wrong(f"{name} has {array.ndim} dimensions, need 1")
+    numbers: list[float] = array.tolist()
+    return numbers

@@ -1,0 +1,54 @@
+"""Values of Python as TOML, and tables of a scene."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any, SupportsFloat, SupportsIndex
+
+from ._errors import wrong
+
+
+def value(of: Any) -> str:
+    """A value as TOML. Whether it means something is judged by the reader of scenes."""
+    if hasattr(of, "tolist"):
+        of = of.tolist()
+    if isinstance(of, bool):
+        return "true" if of else "false"
+    if isinstance(of, str):
+        return string(of)
+    if isinstance(of, Mapping):
+        entries = ", ".join(f"{string(str(key))} = {value(item)}" for key, item in of.items())
+        return f"{{ {entries} }}" if entries else "{}"
+    if isinstance(of, SupportsIndex) and not hasattr(of, "__len__"):
+        return str(int(of))
+    if isinstance(of, Iterable):
+        return f"[{', '.join(value(item) for item in of)}]"
+    if isinstance(of, SupportsFloat):
+        return number(float(of))
+    raise wrong(f"a value is {type(of).__name__}, need a number, a text, a list or a dict")
+
+
+def number(of: float) -> str:
+    """A number with the shortest text that reads back to the same bits."""
+    if math.isfinite(of):
+        text = repr(of)
+        return text if "." in text or "e" in text else f"{text}.0"
+    return "nan" if math.isnan(of) else "inf" if of > 0 else "-inf"
+
+
+def string(of: str) -> str:
+    """A text in quotes. TOML has the escapes of JSON, and wants DEL escaped, too."""
+    text = json.dumps(of, ensure_ascii=False).replace("\x7f", "\\u007f")
+    # A lone surrogate is no character: TOML cannot have it.
+    return text.encode("utf-8", "replace").decode("utf-8")
+
+
+def table(header: str, entries: Mapping[str, Any]) -> str:
+    """A table with its header. Entries that are ``None`` are left out."""
+    lines = [header]
+    for key, item in entries.items():
+        if item is not None:
+            lines.append(f"{key if key.isidentifier() and key.isascii() else string(key)} = {value(item)}")
+    return "\n".join(lines) + "\n"

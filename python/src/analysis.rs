@@ -1,0 +1,156 @@
+//! One configuration with its verdicts, and the questions that it answers.
+
+use std::sync::Arc;
+
+use pfaff::ConfigurationAnalysis;
+use pfaff::configuration::KeptAnalysis;
+use pfaff::model::System;
+use pfaff::rank::Limits;
+use pfaff::refusal::{Refusal, json};
+use pfaff::report::AnalysisDocument;
+use pfaff::report::documents::{
+    DistributionDocument, EliminationsDocument, GroupDocument, MakeUniqueDocument, part_as_json,
+};
+use pyo3::prelude::*;
+use serde::Serialize;
+
+use crate::fault::{Fault, guarded, wrong};
+use crate::options::{About, Allow, Choose};
+use crate::scene::Judged;
+
+/// An analysed configuration. All answers are documents as JSON.
+#[pyclass(frozen, module = "pfaff._pfaff")]
+pub(crate) struct Analysis {
+    of: Arc<Judged>,
+    kept: KeptAnalysis,
+}
+
+impl Analysis {
+    pub(crate) fn new(of: Arc<Judged>, kept: KeptAnalysis) -> Self {
+        Self { of, kept }
+    }
+
+    fn ask<T: Send>(
+        &self,
+        py: Python<'_>,
+        question: impl FnOnce(&ConfigurationAnalysis<'_>) -> Result<T, Fault> + Send,
+    ) -> PyResult<T> {
+        guarded(py, || {
+            let (scene, mechanism) = self.of.parts();
+            question(&ConfigurationAnalysis::again(scene, mechanism, &self.kept))
+        })
+    }
+}
+
+#[pymethods]
+impl Analysis {
+    /// The document that `pfaff analyze --json` writes.
+    fn document(&self, py: Python<'_>, combine: Vec<String>) -> PyResult<String> {
+        self.ask(py, |configuration| {
+            let mut document = configuration.document(&combine)?;
+            self.of.add_warnings(&mut document)?;
+            Ok(json(&document)?)
+        })
+    }
+
+    /// Name and verdict word of each joint and drive.
+    fn words(&self) -> Vec<(String, &'static str)> {
+        let reactions = self.kept.analysis.reactions.iter();
+        let word =
+            |r: &pfaff::solvability::ReactionVerdict| (r.name.clone(), r.wrench.verdict.word());
+        reactions.map(word).collect()
+    }
+
+    /// Rank, redundancy and mobility.
+    fn ranks(&self) -> (usize, usize, usize) {
+        let analysis = &self.kept.analysis;
+        let decision = &analysis.decision;
+        (decision.rank, decision.redundancy, analysis.mobility())
+    }
+
+    /// The verdict on a sum of reactions, with its numbers if they are unique.
+    fn combine(&self, py: Python<'_>, sum: String) -> PyResult<String> {
+        self.ask(py, |configuration| {
+            let verdict = configuration.group(&sum)?;
+            let mut document = GroupDocument::new(&sum, &verdict);
+            if let Ok(numbers) = configuration.determined(std::slice::from_ref(&sum))
+                && let Some(own) = numbers.last()
+            {
+                document = document.with_values(own);
+            }
+            plain(&document)
+        })
+    }
+
+    /// The verdict on the moment of a reaction about a point.
+    fn moment(&self, py: Python<'_>, name: String, about: About) -> PyResult<String> {
+        self.ask(py, |configuration| {
+            let id = configuration.reaction(&name)?;
+            let point = about.point(configuration)?;
+            let found = configuration.moment(id, point).map_err(Fault::from)?;
+            let mut document = AnalysisDocument::new(&name, &configuration.analysis, None);
+            document.add_moment(id, configuration.mechanism.layout().space, &found);
+            plain(&document.reactions[id.0].moment)
+        })
+    }
+
+    /// The smallest deletions that make a reaction unique.
+    fn make_unique(&self, py: Python<'_>, name: String, allow: Allow) -> PyResult<String> {
+        self.ask(py, |configuration| {
+            let id = configuration.reaction(&name)?;
+            let allowed = allow.allowed(configuration.mechanism)?;
+            let found = configuration.make_unique(id, &allowed, Limits::default());
+            plain(&MakeUniqueDocument::new(&name, &allowed, found))
+        })
+    }
+
+    /// The number of sets of rows that can be eliminated, and the first of them.
+    fn eliminations(&self, py: Python<'_>, limit: usize) -> PyResult<String> {
+        self.ask(py, |configuration| {
+            let sets = configuration.elimination_sets(limit);
+            let count = configuration.eliminations();
+            plain(&EliminationsDocument::new(count, Some(sets)))
+        })
+    }
+
+    /// The reactions for a choice.
+    fn distribution(&self, py: Python<'_>, choose: Choose) -> PyResult<String> {
+        self.ask(py, |configuration| {
+            let choice = choose.choice(configuration)?;
+            let distribution = configuration.distribution(&choice)?;
+            plain(&DistributionDocument::new(&distribution, &[]))
+        })
+    }
+
+    /// Refuses the name of a joint or drive that does not exist, with the nearest one.
+    fn check_name(&self, py: Python<'_>, name: String) -> PyResult<()> {
+        self.ask(py, |configuration| {
+            configuration.reaction(&name)?;
+            Ok(())
+        })
+    }
+
+    /// The verdicts along the motion.
+    fn along(&self, py: Python<'_>, t_end: Option<f64>) -> PyResult<String> {
+        guarded(py, || {
+            if let Some(t_end) = t_end
+                && !(t_end.is_finite() && t_end > 0.0)
+            {
+                return Err(wrong(format!("t_end is {t_end}, need a time > 0")));
+            }
+            let along = self.of.study()?.verdicts_along_motion(t_end, |_| {})?;
+            plain(&along.document())
+        })
+    }
+
+    /// Coordinates and velocities; these are empty if none are known.
+    fn state(&self) -> (Vec<f64>, Vec<f64>) {
+        let state = &self.kept.state;
+        (state.q.clone(), state.v.clone())
+    }
+}
+
+/// A part of a document.
+pub(crate) fn plain(document: &impl Serialize) -> Result<String, Fault> {
+    part_as_json(document).map_err(|e| Refusal::stopped(e.to_string()).into())
+}

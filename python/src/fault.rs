@@ -1,0 +1,94 @@
+//! Errors of the library and panics as exceptions of one hierarchy, which `pfaff._errors` defines.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use pfaff::StudyError;
+use pfaff::refusal::{Refusal, json};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+
+/// Why a call has no result.
+pub(crate) enum Fault {
+    /// The library refuses, or has stopped.
+    Refused(Box<Refusal>),
+    /// An exception of Python: Ctrl-C, or one of a callback.
+    Raised(PyErr),
+}
+
+impl From<Refusal> for Fault {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refused(Box::new(refusal))
+    }
+}
+
+impl From<PyErr> for Fault {
+    fn from(raised: PyErr) -> Self {
+        Self::Raised(raised)
+    }
+}
+
+/// An error about something that has no text.
+impl From<StudyError> for Fault {
+    fn from(error: StudyError) -> Self {
+        Refusal::of(("", ""), error).into()
+    }
+}
+
+/// Wrong input of the caller.
+pub(crate) fn wrong(message: String) -> Fault {
+    Refusal::input(message).into()
+}
+
+/// Does the work without the interpreter, so that other threads of Python go on. A panic becomes
+/// an exception.
+pub(crate) fn guarded<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<T, Fault> + Send,
+) -> PyResult<T> {
+    match py.detach(|| catch_unwind(AssertUnwindSafe(work))) {
+        Ok(Ok(result)) => Ok(result),
+        Ok(Err(Fault::Refused(refusal))) => Err(exception(py, &refusal)),
+        Ok(Err(Fault::Raised(raised))) => Err(raised),
+        Err(panic) => Err(internal(py, panic.as_ref())),
+    }
+}
+
+/// The exception of a refusal.
+pub(crate) fn exception(py: Python<'_>, refusal: &Refusal) -> PyErr {
+    let class = match refusal {
+        Refusal::Scene { .. } => "SceneError",
+        Refusal::Input(..) => "InputError",
+        Refusal::Stopped(..) => "ComputationError",
+    };
+    let document = json(&refusal.document()).unwrap_or_default();
+    made(py, class, refusal.words(false).trim_end(), &document)
+}
+
+fn internal(py: Python<'_>, panic: &(dyn Any + Send)) -> PyErr {
+    let message = panic.downcast_ref::<String>().map(String::as_str);
+    let message = message.or_else(|| panic.downcast_ref::<&str>().copied());
+    let words = format!(
+        "internal error of pfaff, which is a fault of pfaff: {}",
+        message.unwrap_or("without a message")
+    );
+    made(py, "InternalError", &words, "")
+}
+
+fn made(py: Python<'_>, class: &str, words: &str, document: &str) -> PyErr {
+    static ERRORS: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
+    let made = || {
+        let import = || Ok::<_, PyErr>(py.import("pfaff._errors")?.unbind());
+        let errors = ERRORS.get_or_try_init(py, import)?;
+        let class = errors.bind(py).getattr(class)?;
+        class.call1((words, document))
+    };
+    made().map_or_else(|e| e, PyErr::from_value)
+}
+
+/// Panics, for the test that no panic leaves this module.
+#[pyfunction]
+#[pyo3(name = "_panics")]
+pub(crate) fn panics(py: Python<'_>) -> PyResult<()> {
+    guarded(py, || panic!("as the test wants"))
+}

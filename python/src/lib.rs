@@ -1,0 +1,44 @@
+//! The private module `pfaff._pfaff` of the Python package `pfaff`: a binding, without mechanics
+//! and without words of its own. Answers are documents of the library as JSON, and arrays; the
+//! Python layer above gives them names.
+//!
+//! | module | content |
+//! | --- | --- |
+//! | `fault` | errors and panics become exceptions |
+//! | `hearing` | Ctrl-C and callbacks during a run |
+//! | `scene` | a text of a scene, and what is computed of it |
+//! | `options` | words and numbers from Python as options of the library |
+//! | `analysis` | one configuration with its verdicts |
+//! | `run` | the rows of a run as arrays |
+
+mod analysis;
+mod fault;
+mod hearing;
+mod options;
+mod run;
+mod scene;
+
+/// The private module.
+#[pyo3::pymodule]
+mod _pfaff {
+    #[pymodule_export]
+    use super::analysis::Analysis;
+    #[pymodule_export]
+    use super::fault::panics;
+    #[pymodule_export]
+    use super::run::Run;
+    #[pymodule_export]
+    use super::scene::{Scene, nearest};
+
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        let input = pfaff::refusal::Refusal::input(String::new()).code();
+        module.add(
+            "INPUT",
+            input.map(|code| code.to_string()).unwrap_or_default(),
+        )
+    }
+}

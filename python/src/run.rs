@@ -1,0 +1,83 @@
+//! The rows of a run as arrays, made once.
+
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pfaff::refusal::Refusal;
+use pyo3::prelude::*;
+
+use crate::fault::exception;
+
+/// Kind, owner and number of a column.
+pub(crate) type Column = (String, String, String);
+
+/// Rows as they come.
+#[derive(Default)]
+pub(crate) struct Recorded {
+    pub(crate) t: Vec<f64>,
+    pub(crate) q: Vec<f64>,
+    pub(crate) v: Vec<f64>,
+    pub(crate) trajectory: Vec<f64>,
+    pub(crate) reactions: Vec<f64>,
+    pub(crate) columns: Vec<Column>,
+    pub(crate) reaction_columns: Vec<Column>,
+    pub(crate) document: String,
+    /// Why it stopped before its end.
+    pub(crate) stopped: Option<Refusal>,
+}
+
+/// A run. Arrays have a row for each time.
+#[pyclass(frozen, module = "pfaff._pfaff")]
+pub(crate) struct Run {
+    #[pyo3(get)]
+    t: Py<PyArray1<f64>>,
+    #[pyo3(get)]
+    q: Py<PyArray2<f64>>,
+    #[pyo3(get)]
+    v: Py<PyArray2<f64>>,
+    #[pyo3(get)]
+    trajectory: Py<PyArray2<f64>>,
+    #[pyo3(get)]
+    reactions: Py<PyArray2<f64>>,
+    #[pyo3(get)]
+    columns: Vec<Column>,
+    #[pyo3(get)]
+    reaction_columns: Vec<Column>,
+    #[pyo3(get)]
+    document: String,
+    stopped: Option<Refusal>,
+}
+
+impl Run {
+    pub(crate) fn new(py: Python<'_>, recorded: Recorded) -> Self {
+        let n = recorded.t.len();
+        Self {
+            q: by_rows(py, recorded.q, n),
+            v: by_rows(py, recorded.v, n),
+            trajectory: by_rows(py, recorded.trajectory, n),
+            reactions: by_rows(py, recorded.reactions, n),
+            t: recorded.t.into_pyarray(py).unbind(),
+            columns: recorded.columns,
+            reaction_columns: recorded.reaction_columns,
+            document: recorded.document,
+            stopped: recorded.stopped,
+        }
+    }
+}
+
+#[pymethods]
+impl Run {
+    /// The exception that says why the run stopped before its end, if it did so by itself.
+    fn stopped(&self, py: Python<'_>) -> Option<Py<PyAny>> {
+        let refusal = self.stopped.as_ref()?;
+        Some(exception(py, refusal).into_value(py).into_any())
+    }
+}
+
+/// An array of n rows that takes the numbers as they are.
+pub(crate) fn by_rows(py: Python<'_>, mut numbers: Vec<f64>, n: usize) -> Py<PyArray2<f64>> {
+    let columns = numbers.len().checked_div(n).unwrap_or(0);
+    numbers.truncate(n * columns);
+    let array = Array2::from_shape_vec((n, columns), numbers);
+    let array = array.unwrap_or_else(|_| Array2::zeros((0, 0)));
+    array.into_pyarray(py).unbind()
+}

@@ -1,0 +1,279 @@
+"""Runs: closed forms, arrays, what is not unique, callbacks, Ctrl-C."""
+
+from __future__ import annotations
+
+import gc
+import math
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import PENDULUM, ROOT, SLEIGH
+
+import pfaff
+
+
+def test_a_stone_falls() -> None:
+    stone = pfaff.Scene("stone", gravity=[0.0, -10.0]).body(
+        "stone", mass=2.0, inertia=1.0, velocity=[3.0, 5.0], angular_velocity=0.5
+    )
+    run = stone.simulate(1.0, output_step=0.25)
+    body = run.body("stone")
+    np.testing.assert_array_equal(run.t, [0.0, 0.25, 0.5, 0.75, 1.0])
+    height = 5.0 * run.t - 5.0 * run.t**2
+    np.testing.assert_allclose(body.position, np.column_stack((3.0 * run.t, height)), atol=1e-9)
+    np.testing.assert_allclose(body.velocity[:, 1], 5.0 - 10.0 * run.t, atol=1e-9)
+    np.testing.assert_allclose(body.angle, 0.5 * run.t, atol=1e-12)
+    np.testing.assert_allclose(body.angular_velocity, 0.5, atol=1e-12)
+
+
+def test_a_pendulum_hangs_on_its_pivot() -> None:
+    """From rest at the horizontal: the pull is m·g·3·sin(angle)·(m·l²/(m·l²+J)) + the rest."""
+    run = pfaff.Scene.from_string(PENDULUM).simulate(rtol=1e-10)
+    mass, inertia, g = 1.0, 0.1, 9.81
+    angle = run.body("bob").angle
+    rate2 = 2.0 * mass * g * -np.sin(angle) / (mass + inertia)
+    np.testing.assert_allclose(run.body("bob").angular_velocity**2, rate2, atol=1e-7)
+    acceleration = -mass * g * np.cos(angle) / (mass + inertia)
+    radial, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
+    pull = mass * (across * acceleration - radial * rate2) + np.array([[0.0], [mass * g]])
+    # On the first body, the ground.
+    np.testing.assert_allclose(run.reaction("pivot").force, -pull.T, atol=1e-6)
+    np.testing.assert_allclose(run.reaction("pivot").torque, 0.0, atol=1e-12)
+
+
+def test_a_body_in_space_turns() -> None:
+    top = pfaff.Scene("block", space="spatial").body(
+        "block", mass=1.0, inertia=[1.0, 1.0, 2.0], angular_velocity=[0.0, 0.0, 2.0]
+    )
+    run = top.simulate(1.0)
+    body = run.body("block")
+    assert body.position.shape == (len(run), 3)
+    half = np.zeros((len(run), 4))
+    half[:, 0], half[:, 3] = np.cos(run.t), np.sin(run.t)
+    np.testing.assert_allclose(body.orientation, half, atol=1e-8)
+    np.testing.assert_allclose(body.angular_velocity, [[0.0, 0.0, 2.0]] * len(run), atol=1e-9)
+
+
+def test_what_is_not_unique_is_not_a_number() -> None:
+    scene = pfaff.Scene.from_string(SLEIGH)
+    run = scene.simulate()
+    for name in ("left", "right"):
+        force = run.reaction(name).force
+        # Along the blade there is no force under any load.
+        np.testing.assert_array_equal(force[:, 0] == force[:, 0], True)
+        assert np.isnan(force[:, 1]).all()
+        assert np.isnan(run.reaction(name)["N"]).all()
+    kept = scene.simulate(choose="kept-rows")
+    dropped = scene.simulate(choose=[1])
+    for run in (kept, dropped):
+        assert np.isfinite(run.reactions).all()
+    # Sideways acceleration of a body that runs straight ahead and turns: v·omega.
+    sides = [run.reaction("left")["N"] + run.reaction("right")["N"] for run in (kept, dropped)]
+    for side in sides:
+        np.testing.assert_allclose(np.abs(side), 3.0 * 1.0 * 0.5, rtol=1e-6)
+    np.testing.assert_array_equal(dropped.reaction("left")["N"], 0.0)
+    none = scene.simulate(reactions=False)
+    assert np.isnan(none.reactions).all()
+    one = scene.simulate(reactions=["right"], choose="kept-rows")
+    assert np.isnan(one.reaction("left").force).all()
+    assert np.isfinite(one.reaction("right").force).all()
+
+
+def test_arrays_are_made_once_and_stay() -> None:
+    run = pfaff.Scene.from_string(PENDULUM).simulate()
+    body = run.body("bob")
+    assert run.body("bob").position.base is not None
+    assert np.shares_memory(body.position, run.trajectory)
+    assert np.shares_memory(run.reaction("pivot").force, run.reactions)
+    assert np.shares_memory(body.position, run.body("bob").position)
+    position, force, t = body.position, run.reaction("pivot").force, run.t
+    copies = [array.copy() for array in (position, force, t)]
+    del run, body
+    gc.collect()
+    waste = [np.full(10_000, float(k)) for k in range(100)]
+    for array, copy in zip((position, force, t), copies, strict=True):
+        np.testing.assert_array_equal(array, copy)
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
+    assert len(waste) == 100
+
+
+def test_events_are_told_on_the_way() -> None:
+    scene = pfaff.Scene.from_file(ROOT / "examples" / "slider-crank.toml")
+    told: list[pfaff.Event] = []
+    run = scene.simulate(on_event=told.append)
+    assert told == run.events
+    many = pfaff.Scene.from_file(ROOT / "crates" / "robot-trolley" / "robot-trolley.toml")
+    told.clear()
+    whole = many.simulate(on_event=told.append)
+    assert told == whole.events
+
+
+def test_a_callback_ends_the_run() -> None:
+    scene = pfaff.Scene.from_string(PENDULUM)
+    whole = scene.simulate()
+    run = scene.simulate(on_row=lambda t: t >= 0.5)
+    assert run.partial and not whole.partial
+    assert run.t[-1] == 0.5
+    np.testing.assert_array_equal(run.trajectory, whole.trajectory[: len(run)])
+
+
+def test_an_exception_of_a_callback_is_raised() -> None:
+    class Own(Exception):
+        pass
+
+    def fails(_: float) -> None:
+        raise Own("here")
+
+    with pytest.raises(Own, match="here"):
+        pfaff.Scene.from_string(PENDULUM).simulate(on_row=fails)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+def test_ctrl_c_ends_a_long_run() -> None:
+    scene = pfaff.Scene.from_string(PENDULUM)
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        scene.simulate(1e6, rtol=1e-12, output_step=1e5)
+    assert time.monotonic() - begun < 5.0
+    assert len(scene.simulate()) > 1
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+def test_ctrl_c_ends_a_run_of_several_components() -> None:
+    two = pfaff.Scene("two", gravity=[0.0, -9.81])
+    for k in range(2):
+        name = f"bob{k}"
+        two = two.body(name, mass=1.0, inertia=0.1, position=[1.0 + k, 0.0])
+        two = two.joint(f"pivot{k}", "revolute", ["ground", name], at=[0.0, 0.0])
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        two.simulate(1e6, rtol=1e-12, output_step=1.0)
+    assert time.monotonic() - begun < 5.0
+
+
+def test_other_threads_go_on() -> None:
+    """Two runs and a counter at once: the interpreter is free while a run goes."""
+    scene = pfaff.Scene.from_string(PENDULUM)
+    found: list[np.ndarray] = []
+    ends = threading.Event()
+
+    def go() -> None:
+        found.append(scene.simulate(300.0, rtol=1e-9).trajectory)
+
+    threads = [threading.Thread(target=go) for _ in range(2)]
+    counted = 0
+
+    def count() -> None:
+        nonlocal counted
+        while not ends.is_set():
+            counted += 1
+            time.sleep(0.001)
+
+    counter = threading.Thread(target=count)
+    for thread in (*threads, counter):
+        thread.start()
+    for thread in threads:
+        thread.join()
+    ends.set()
+    counter.join()
+    assert counted > 5
+    np.testing.assert_array_equal(found[0], found[1])
+
+
+def test_a_run_that_stops_keeps_its_rows() -> None:
+    with pytest.raises(pfaff.ComputationError) as raised:
+        pfaff.Scene.from_string(PENDULUM).simulate(10.0, max_steps=20)
+    error = raised.value
+    assert error.code is not None and error.run is not None
+    assert error.run.partial
+    assert 1 < len(error.run) < 2001
+    assert error.run.document["code"] == error.code
+
+
+def test_tables() -> None:
+    run = pfaff.Scene.from_file(ROOT / "examples" / "slider-crank.toml").simulate()
+    try:
+        table = run.to_pandas()
+    except ImportError:
+        pass
+    else:
+        assert list(table.columns) == run.columns + run.reaction_columns
+        np.testing.assert_array_equal(table.index, run.t)
+    try:
+        frame = run.to_polars()
+    except ImportError:
+        return
+    assert frame.columns == ["t", *run.columns, *run.reaction_columns]
+    assert frame.shape[0] == len(run)
+
+
+def test_pages(tmp_path: Path) -> None:
+    scene = pfaff.Scene.from_string(SLEIGH)
+    run = scene.simulate(1.0)
+    run.report(tmp_path / "run.html")
+    page = (tmp_path / "run.html").read_text(encoding="utf-8")
+    assert page.lower().startswith("<!doctype html>") and "sleigh" in page
+    assert "t = 1" in page or "1 s" in page
+    table = scene.analyze()._repr_html_()
+    assert "<td>left</td>" in table and "not unique" in table
+
+
+def test_names_that_do_not_exist() -> None:
+    run = pfaff.Scene.from_string(PENDULUM).simulate()
+    with pytest.raises(pfaff.InputError, match="no body `bop`.*did you mean `bob`"):
+        run.body("bop")
+    with pytest.raises(pfaff.InputError, match="did you mean `pivot`"):
+        run.reaction("pivott")
+    with pytest.raises(pfaff.InputError, match="no number of `bob` `z`|no number of `bob` `qw`"):
+        _ = run.body("bob").orientation
+    with pytest.raises(pfaff.InputError, match="no column"):
+        run.plot("bob.xx")
+
+
+def test_matrices_of_a_pendulum() -> None:
+    scene = pfaff.Scene.from_string(PENDULUM)
+    matrices = scene.matrices()
+    # The pivot is at (−1, 0) of the body: its velocity is (vx, vy − ω), whatever the sign of the rows.
+    rows = matrices.C * np.sign(matrices.C[:, :2].sum(axis=1))[:, None]
+    np.testing.assert_allclose(rows, [[1.0, 0.0, 0.0], [0.0, 1.0, -1.0]], atol=1e-15)
+    np.testing.assert_array_equal(matrices.M, np.diag([1.0, 1.0, 0.1]))
+    np.testing.assert_allclose(matrices.Q, [0.0, -9.81, 0.0])
+    np.testing.assert_array_equal(matrices.b, 0.0)
+    np.testing.assert_allclose(matrices.Phi, 0.0, atol=1e-15)
+    np.testing.assert_array_equal(matrices.Gamma, 0.0)
+    turning = scene.matrices(q=[1.0, 0.0, 0.0], v=[0.0, 2.0, 2.0])
+    # Towards the pivot with ω²·l.
+    assert abs(turning.Gamma).max() == pytest.approx(4.0)
+    saddle = np.block([[turning.M, turning.C.T], [turning.C, np.zeros((2, 2))]])
+    a = np.linalg.solve(saddle, np.concatenate((turning.Q, turning.Gamma)))[:3]
+    np.testing.assert_allclose(a, [-4.0, -9.81 / 1.1, -9.81 / 1.1])
+
+
+def test_small_motions_of_a_pendulum() -> None:
+    hanging = PENDULUM.replace("position = [1.0, 0.0]", "position = [0.0, -1.0]")
+    found = pfaff.Scene.from_string(hanging).linearise()
+    rate = math.sqrt(9.81 / 1.1)
+    assert found.A.shape == (2, 2) and found.B.shape == (2, len(found.inputs))
+    np.testing.assert_allclose(np.sort(np.linalg.eigvals(found.A).imag), [-rate, rate], rtol=1e-7)
+    assert abs(found.eigenvalues[0].imag) == pytest.approx(rate, rel=1e-7)
+    assert found.second_order is not None
+
+
+def test_a_run_in_a_child_process() -> None:
+    """Started after a run here: threads of the parent are not in the child."""
+    pfaff.Scene.from_string(PENDULUM).simulate()
+    code = "import pickle, sys, pfaff; scene = pickle.loads(sys.stdin.buffer.read()); print(len(scene.simulate()))"
+    text = pickle.dumps(pfaff.Scene.from_string(PENDULUM))
+    done = subprocess.run([sys.executable, "-W", "error", "-c", code], input=text, capture_output=True, check=True)
+    assert int(done.stdout) == 201

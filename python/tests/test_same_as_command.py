@@ -1,0 +1,229 @@
+"""Verdicts, motions, messages: the same documents as those of the command."""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import EXAMPLES, PENDULUM, ROOT, Command
+
+import pfaff
+
+# What a run of another program cannot have in common.
+OWN = {"wall_seconds", "files", "rows", "version"}
+
+
+def _names(path: Path) -> str:
+    return path.stem
+
+
+@pytest.fixture(autouse=True)
+def _here(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=_names)
+def test_verdicts(path: Path, command: Command) -> None:
+    expected = command.document("analyze", path)
+    assert pfaff.Scene.from_file(path).analyze().document == expected
+
+
+def test_templates(command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    templates = [template["name"] for template in command.document("new")["templates"]]
+    assert len(templates) >= 30
+    for name in templates:
+        command.run("new", name)
+        path = f"{name}.toml"
+        expected = command.document("analyze", path)
+        assert pfaff.Scene.from_file(path).analyze().document == expected, name
+
+
+def test_verdicts_with_options(command: Command) -> None:
+    path = ROOT / "examples" / "sleigh.toml"
+    scene = pfaff.Scene.from_file(path)
+    asked = ["--make-unique", "left", "--eliminations", "5", "--combine", "left.N + right.N"]
+    asked += ["--about", "0.1,0.2", "--along", "1.0", "--choose", "minimum-norm", "--allow", "whole"]
+    expected = command.document("analyze", path, *asked)
+    analysis = scene.analyze()
+    assert analysis.make_unique("left", "whole") == expected["make_unique"][0]
+    assert analysis.eliminations(5) == expected["eliminations"]
+    assert analysis.along(1.0) == expected["along"]
+    (group,) = [g for g in expected["groups"] if g["name"] == "left.N + right.N"]
+    found = analysis.combine("left.N + right.N")
+    assert (found.verdict, found.margin) == (group["verdict"], group["margin"])
+    assert found.value == group["values"][0]["value"]
+    for reaction in expected["reactions"]:
+        moment = analysis.moment(reaction["name"], (0.1, 0.2))
+        verdicts = {c["name"]: c["verdict"] for c in reaction["moment"]["components"]}
+        assert {name: c.verdict for name, c in moment.items()} == verdicts
+    (choice,) = expected["choices"]
+    chosen = analysis.reactions("minimum-norm")
+    for reaction in choice["reactions"]:
+        numbers = {c["name"]: c["value"] for c in reaction["components"]}
+        assert chosen[reaction["name"]] == numbers
+
+
+def test_a_later_time_and_a_tolerance(command: Command) -> None:
+    path = ROOT / "examples" / "four-bar.toml"
+    expected = command.document("analyze", path, "--at-time", "0.3", "--tolerance", "1e-3")
+    assert pfaff.Scene.from_file(path).analyze(0.3, tolerance=1e-3).document == expected
+
+
+def _table(path: Path) -> tuple[list[str], np.ndarray[Any, Any]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        header, *rows = csv.reader(file)
+    return header, np.array([[float(x) for x in row] for row in rows])
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=_names)
+def test_motions(path: Path, command: Command, tmp_path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    if "simulate" not in text:
+        pytest.skip("the scene has no run")
+    # Files for people take longer than the run.
+    done = command.run("simulate", path, "--out", tmp_path / "run", "--json")
+    assert done.returncode == 0, done.stderr
+    run = pfaff.Scene.from_file(path).simulate(choose="kept-rows")
+    for file, columns, table in (
+        ("trajectory.csv", run.columns, run.trajectory),
+        ("reactions.csv", run.reaction_columns, run.reactions),
+    ):
+        if not (tmp_path / "run" / file).exists():
+            continue
+        header, expected = _table(tmp_path / "run" / file)
+        known = [column for column in columns if column in header]
+        assert header == ["t", *known]
+        own = table[:, [columns.index(column) for column in known]]
+        np.testing.assert_array_equal(run.t, expected[:, 0])
+        np.testing.assert_array_equal(own, expected[:, 1:])
+
+
+def test_summary(command: Command, tmp_path: Path) -> None:
+    path = ROOT / "examples" / "slider-crank.toml"
+    expected = command.document("simulate", path, "--out", tmp_path / "run")
+    scene = pfaff.Scene.from_file(path)
+    run = scene.simulate()
+    for key in expected.keys() - OWN - {"plan"}:
+        assert run.document[key] == expected[key], key
+    written = scene.simulate_into(tmp_path / "own")
+    for key in expected.keys() - {"wall_seconds"}:
+        assert written[key] == expected[key], key
+    for file in ("trajectory.csv", "reactions.csv"):
+        assert (tmp_path / "own" / file).read_bytes() == (tmp_path / "run" / file).read_bytes()
+
+
+def test_linearisation(command: Command) -> None:
+    path = ROOT / "examples" / "knife-edge.toml"
+    hanging = PENDULUM.replace("position = [1.0, 0.0]", "position = [0.0, -1.0]")
+    expected = command.document("linearise", "-", stdin=hanging)
+    found = pfaff.Scene.from_string(hanging, "<stdin>").linearise()
+    assert found.document == expected
+    assert path.exists()
+
+
+FAULTS = {
+    "no TOML": "[scene\nname = 3",
+    "empty": "",
+    "unknown key": PENDULUM.replace("mass", "mas"),
+    "unknown body": PENDULUM.replace('"bob"]', '"bobb"]'),
+    "unknown type": PENDULUM.replace("revolute", "revolut"),
+    "negative mass": PENDULUM.replace("mass = 1.0", "mass = -1.0"),
+    "two faults": PENDULUM.replace("mass = 1.0", "mass = nan").replace("at =", "att ="),
+    "terminal codes": PENDULUM.replace("bob", "b\\u001b[31mb"),
+    "bad velocity": PENDULUM.replace("position", "velocity = [1.0, 3.0], position"),
+    "wrong end": PENDULUM.replace("t_end = 1.0", "t_end = -1.0"),
+    "long line": PENDULUM + f'# {"x" * 4000}\nfoo = {"[" * 300}',
+}
+
+
+@pytest.mark.parametrize("text", FAULTS.values(), ids=FAULTS.keys())
+def test_refusals(text: str, command: Command, scene_file: Callable[[str], Path]) -> None:
+    path = scene_file(text)
+    words = command.run("analyze", path)
+    expected = command.document("analyze", path)
+    if words.returncode == 0:
+        assert pfaff.Scene.from_file(path).analyze().document == expected
+        return
+    with pytest.raises(pfaff.Error) as raised:
+        pfaff.Scene.from_file(path).analyze()
+    error = raised.value
+    assert str(error) == words.stderr.rstrip()
+    assert error.document == expected
+    assert error.code == expected["code"]
+    assert isinstance(error, pfaff.SceneError) == bool(expected["problems"])
+    if expected["problems"]:
+        first = expected["problems"][0]
+        assert error.hint == first["help"]
+        place = (str(path), first["primary"]["line"], first["primary"]["column"])
+        assert error.place == pfaff.Place(*place)
+
+
+def test_other_refusals(command: Command, scene_file: Callable[[str], Path]) -> None:
+    path = scene_file(PENDULUM)
+    missing = path.with_name("scen.toml")
+
+    def same(call: Callable[[], object], *arguments: str | Path) -> None:
+        with pytest.raises(pfaff.Error) as raised:
+            call()
+        assert str(raised.value) == command.run(*arguments).stderr.rstrip()
+        assert raised.value.document == command.document(*arguments)
+
+    scene = pfaff.Scene.from_file(path)
+    same(lambda: pfaff.Scene.from_file(missing), "analyze", missing)
+    same(lambda: pfaff.Scene.from_file(path.parent), "analyze", path.parent)
+    analysis = scene.analyze()
+    same(lambda: analysis.verdicts["pivo"], "analyze", path, "--make-unique", "pivo")
+    same(lambda: analysis.combine("pivot.Q"), "analyze", path, "--combine", "pivot.Q")
+    same(lambda: scene.analyze(drop=[0]), "analyze", path, "--drop", "0")
+    same(lambda: scene.analyze(drop=[7]), "analyze", path, "--drop", "7")
+    out = path.with_name("out")
+    same(lambda: scene.simulate(rtol=-1.0), "simulate", path, "--out", out, "--rtol=-1")
+    same(lambda: scene.simulate(t_end=-1.0), "simulate", path, "--out", out, "--t-end=-1")
+
+
+def test_not_utf8(command: Command, tmp_path: Path) -> None:
+    path = tmp_path / "latin.toml"
+    path.write_bytes(b"[scene]\nname = \"\xe4\"\n")
+    with pytest.raises(pfaff.InputError) as raised:
+        pfaff.Scene.from_file(path)
+    assert str(raised.value) == command.run("analyze", path).stderr.rstrip()
+    assert os.fspath(path) in str(raised.value)
+
+
+def test_other_numbers(command: Command, scene_file: Callable[[str], Path]) -> None:
+    path = scene_file(PENDULUM)
+    scene = pfaff.Scene.from_file(path)
+    other = scene.with_(**{"body.bob.mass": 2.5, "joint.pivot.at": [0.0, 0.25]})
+    settings = ["body.bob.mass=2.5", "joint.pivot.at[0]=0", "joint.pivot.at[1]=0.25"]
+    words = [word for setting in settings for word in ("--set", setting)]
+    assert other.analyze().document == command.document("analyze", path, *words)
+    with pytest.raises(pfaff.InputError) as raised:
+        scene.with_(**{"body.bop.mass": 2.0})
+    refused = command.run("analyze", path, "--set", "body.bop.mass=2").stderr.rstrip()
+    assert str(raised.value) == refused.replace("--set: ", "")
+
+
+def test_imports(command: Command, tmp_path: Path) -> None:
+    model = """<mujoco model="pendulum"><worldbody><body name="rod">
+      <joint name="hinge" axis="0 1 0"/>
+      <inertial pos="0 0 -0.5" mass="2" diaginertia="0.17 0.17 0.001"/>
+    </body></worldbody></mujoco>"""
+    path = tmp_path / "pendulum.xml"
+    path.write_text(model, encoding="utf-8")
+    command.run("import", path, "--out", tmp_path / "out.toml")
+    scene = pfaff.Scene.from_mjcf(path)
+    assert scene.text == (tmp_path / "out.toml").read_text(encoding="utf-8")
+    assert scene.analyze().mobility == 1
+    with pytest.raises(pfaff.InputError, match="is MJCF, not URDF"):
+        pfaff.Scene.from_urdf(path)
+    path.write_text(model.replace('mass="2"', 'mass="-2"'), encoding="utf-8")
+    with pytest.raises(pfaff.SceneError) as raised:
+        pfaff.Scene.from_mjcf(path)
+    expected = command.run("import", path, "--out", tmp_path / "out.toml", "--force")
+    assert str(raised.value) == expected.stderr.rstrip()

@@ -1,0 +1,270 @@
+"""Scenes: the builder, other numbers, errors; hostile input has named exceptions."""
+
+from __future__ import annotations
+
+import pickle
+import subprocess
+import sys
+import threading
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import EXAMPLES, PENDULUM, ROOT, SLEIGH
+
+import pfaff
+from pfaff import _pfaff
+
+
+def door() -> pfaff.Scene:
+    return (
+        pfaff.Scene("door", space="plane")
+        .body("leaf", mass=20.0, inertia=5.0)
+        .joint("upper", "revolute", ["ground", "leaf"], at=[0.0, 1.0])
+        .joint("lower", "revolute", ["ground", "leaf"], at=(0.0, -1.0))
+    )
+
+
+def test_a_door_on_two_hinges() -> None:
+    analysis = door().analyze()
+    assert (analysis.rank, analysis.redundancy, analysis.mobility) == (3, 1, 0)
+    upper = analysis.verdicts["upper"]
+    assert not upper.unique and upper.verdict == "not_unique"
+    assert list(analysis.verdicts) == ["upper", "lower"]
+    # The hinges share the load along the line through both; across it each is determined.
+    assert upper.components["Fx"].unique and not upper.components["Fy"].unique
+    assert upper.directions is not None
+    np.testing.assert_allclose(np.abs(upper.directions), [[1.0, 0.0]], atol=1e-12)
+    assert not upper.fragile and upper.type == "revolute" and upper.rows == [1, 2]
+    assert analysis.combine("upper.Fy + lower.Fy").unique
+    assert not analysis.combine("upper.Fy - lower.Fy").unique
+    assert analysis.eliminations()["count"] == 2
+    assert "upper" in analysis.explain()[0] and "lower" in upper.explain()
+    ways = upper.make_unique()["ways"]
+    assert ways and all(way["rows"] for way in ways)
+    numbers = analysis.reactions()
+    assert np.isnan(numbers["upper"]["Fy"]) and numbers["upper"]["Fx"] == pytest.approx(0.0)
+    assert np.isfinite(analysis.reactions([2])["lower"]["Fy"])
+    assert np.isfinite(analysis.reactions({"upper": 1e-6, "lower": 2e-6})["lower"]["Fy"])
+
+
+def test_scenes_do_not_change() -> None:
+    one = pfaff.Scene("one")
+    two = one.body("a", mass=1.0, inertia=1.0)
+    assert "body" not in one.text and "[[body]]" in two.text
+    assert two.bodies == ["a"] and two.name == "one"
+    heavy = two.with_(**{"body.a.mass": np.float64(3.0)})
+    assert heavy.matrices().M[0, 0] == 3.0 and two.matrices().M[0, 0] == 1.0
+    with pytest.raises(AttributeError):
+        two.text = ""  # type: ignore[misc]
+    assert two == pfaff.Scene.from_string(two.text, two.file) and hash(two) != hash(one)
+    assert pickle.loads(pickle.dumps(two)) == two
+
+
+def test_the_builder_has_the_errors_of_the_reader() -> None:
+    scene = pfaff.Scene("s").body("bar", mass=1.0, inertia=1.0)
+    for wrong, hint in (
+        (scene.joint("A", "revolut", ["ground", "bar"], at=[0, 0]), "revolute"),
+        (scene.joint("A", "revolute", ["ground", "barr"], at=[0, 0]), "bar"),
+        (scene.joint("A", "revolute", ["ground", "bar"], att=[0, 0]), "at"),
+        (scene.body("bar", mass=1.0, inertia=1.0), ""),
+        (scene.body("b", mas=1.0, inertia=1.0), "mass"),
+    ):
+        with pytest.raises(pfaff.SceneError) as raised:
+            wrong.check()
+        error = raised.value
+        assert error.code is not None and error.place is not None
+        assert error.place.file == "s.toml" and error.place.line > 4
+        assert hint in str(error)
+        assert isinstance(error, ValueError)
+
+
+def test_parameters_and_expressions() -> None:
+    scene = (
+        pfaff.Scene("bar", format=2)
+        .parameters(L=0.3)
+        .body("bar", mass="2 kg", inertia=1.0, position=["L", 0.0])
+        .joint("A", "revolute", ["ground", "bar"], at=[0.0, 0.0])
+    )
+    assert scene.matrices().M[0, 0] == 2.0
+    np.testing.assert_allclose(scene.analyze().q[:1], 0.3)
+    np.testing.assert_allclose(scene.with_(L="200 mm + 0.25 m").analyze().q[:1], 0.45)
+
+
+def test_texts_are_written_as_they_are() -> None:
+    odd = 'a "b" \\ \u00e4\n\t\u2028 \x7f \x00 [x]'
+    scene = pfaff.Scene("s").body(odd, mass=1, inertia=np.int64(2))
+    try:
+        assert scene.bodies == [odd]
+    except pfaff.SceneError as e:
+        # Some characters are refused by the reader, not by a broken text.
+        assert e.code is not None and "TOML" not in str(e)
+    tidy = 'a "b" \\ \u00e4'
+    assert pfaff.Scene("s").body(tidy, mass=1, inertia=1).bodies == [tidy]
+
+
+HOSTILE: list[tuple[str, Any]] = [
+    ("q is too short", lambda s: s.matrices(q=[1.0])),
+    ("q is too long", lambda s: s.matrices(q=np.zeros(1000))),
+    ("q has two dimensions", lambda s: s.matrices(q=np.zeros((3, 1)))),
+    ("q is NaN", lambda s: s.matrices(q=[np.nan, 0.0, 0.0])),
+    ("v is infinite", lambda s: s.matrices(v=[0.0, np.inf, 0.0])),
+    ("v is text", lambda s: s.matrices(v=["a", "b", "c"])),
+    ("v is an object", lambda s: s.matrices(v=[object()] * 3)),
+    ("t is NaN", lambda s: s.matrices(t=float("nan"))),
+    ("time is NaN", lambda s: s.analyze(float("nan"))),
+    ("time is negative", lambda s: s.analyze(-1.0)),
+    ("tolerance is zero", lambda s: s.analyze(tolerance=0.0)),
+    ("tolerance is NaN", lambda s: s.analyze(angle_tolerance=float("nan"))),
+    ("row 0", lambda s: s.analyze(drop=[0])),
+    ("row too large", lambda s: s.analyze(drop=[10**9])),
+    ("rtol is NaN", lambda s: s.simulate(rtol=float("nan"))),
+    ("rtol is negative", lambda s: s.simulate(rtol=-1.0)),
+    ("t_end is infinite", lambda s: s.simulate(float("inf"))),
+    ("t_end is negative", lambda s: s.simulate(-1.0)),
+    ("output step is zero", lambda s: s.simulate(output_step=0.0)),
+    ("output step is NaN", lambda s: s.simulate(output_step=float("nan"))),
+    ("no method", lambda s: s.simulate(method="dopri")),
+    ("empty method", lambda s: s.simulate(method="")),
+    ("no threads", lambda s: s.simulate(threads=0)),
+    ("no such reaction", lambda s: s.simulate(reactions=["pivott"])),
+    ("no such choice", lambda s: s.simulate(choose="minimum")),
+    ("rows to drop", lambda s: s.simulate(choose=[1, 1])),
+    ("empty name", lambda s: s.analyze().verdicts[""]),
+    ("empty sum", lambda s: s.analyze().combine("")),
+    ("long sum", lambda s: s.analyze().combine("pivot.Fx + " * 10_000)),
+    ("no marker", lambda s: s.analyze().moment("pivot", "here")),
+    ("point of one number", lambda s: s.analyze().moment("pivot", [1.0])),
+    ("point that is NaN", lambda s: s.analyze().moment("pivot", [np.nan, 0.0])),
+    ("permission", lambda s: s.analyze().make_unique("pivot", "all")),
+    ("no such arm", lambda s: s.analyze().reactions("minimum-norm", length=-1.0)),
+    ("compliance", lambda s: s.analyze().reactions({"pivot": float("nan")})),
+    ("choice", lambda s: s.analyze().reactions("least")),
+    ("along to zero", lambda s: s.analyze().along(0.0)),
+    ("key", lambda s: s.with_(**{"": 1.0})),
+    ("value", lambda s: s.with_(**{"body.bob.mass": object()})),
+    ("nan in a scene", lambda s: s.with_(**{"body.bob.mass": float("nan")}).check()),
+    ("huge number", lambda s: s.with_(**{"body.bob.mass": 1e300}).check()),
+    ("huge integer", lambda s: s.body("b", mass=10**400, inertia=1).check()),
+    ("object in a table", lambda s: s.body("b", mass=object())),
+    ("lone surrogate", lambda s: s.body("\ud800", mass=1, inertia=1, foo=1).check()),
+    ("no text", lambda s: pfaff.Scene.from_string("").check()),
+    ("null characters", lambda s: pfaff.Scene.from_string("\0" * 100).check()),
+    ("deep", lambda s: pfaff.Scene.from_string("a = " + "[" * 100_000).check()),
+    ("no file", lambda s: pfaff.Scene.from_file("")),
+    ("nothing to import", lambda s: pfaff.Scene.from_urdf()),
+    ("empty model", lambda s: pfaff.Scene.from_sdf(text="")),
+    ("base", lambda s: pfaff.Scene.from_urdf(text="<robot/>", base="loose")),
+    ("no coordinate", lambda s: s.linearise(coordinates=["bob.z"])),
+    ("time of a linearisation", lambda s: s.linearise(float("inf"))),
+]
+
+
+@pytest.mark.parametrize("call", [call for _, call in HOSTILE], ids=[name for name, _ in HOSTILE])
+def test_hostile_input(call: Any) -> None:
+    with pytest.raises(pfaff.Error) as raised:
+        call(pfaff.Scene.from_string(PENDULUM))
+    error = raised.value
+    assert not isinstance(error, pfaff.InternalError)
+    assert error.code is not None and error.code.startswith("P0")
+    again = pickle.loads(pickle.dumps(error))
+    assert (type(again), str(again), again.code) == (type(error), str(error), error.code)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda s: s.analyze("now"),
+        lambda s: s.simulate(max_steps=-1),
+        lambda s: s.simulate(threads=1.5),
+        lambda s: s.analyze(drop=["a"]),
+        lambda s: s.simulate_into(".", rtl=1e-3),
+        lambda s: s.simulate(rtl=1e-3),
+        lambda s: s.from_string(3),
+        lambda s: s.analyze().eliminations(-1),
+    ],
+)
+def test_wrong_types(call: Any) -> None:
+    with pytest.raises((TypeError, OverflowError)):
+        call(pfaff.Scene.from_string(PENDULUM))
+
+
+def test_no_panic_leaves_the_package(capfd: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(pfaff.InternalError, match="as the test wants") as raised:
+        _pfaff._panics()
+    assert isinstance(raised.value, RuntimeError)
+    assert "as the test wants" in capfd.readouterr().err
+
+
+def test_two_analyses_at_once() -> None:
+    """Each thread with scenes of its own and with one that all share."""
+    texts = [PENDULUM, SLEIGH]
+    shared = [pfaff.Scene.from_string(text) for text in texts]
+    expected = [scene.analyze().document for scene in shared]
+    failures: list[object] = []
+
+    def go() -> None:
+        for _ in range(10):
+            for text, scene, document in zip(texts, shared, expected, strict=True):
+                for found in (scene.analyze(), pfaff.Scene.from_string(text, scene.file).analyze()):
+                    if found.document != document:
+                        failures.append(found)
+
+    threads = [threading.Thread(target=go) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not failures
+
+
+def test_a_mechanism_that_cannot_move() -> None:
+    """Two pivots 1e-9 m apart can be judged, but not moved."""
+    bar = (
+        pfaff.Scene("bar")
+        .body("bar", mass=1.0, inertia=1.0, position=[1.0, 0.0])
+        .joint("pivot", "revolute", ["ground", "bar"], at=[0.0, 0.0])
+        .joint("twin", "revolute", ["ground", "bar"], at=[1e-9, 0.0])
+    )
+    analysis = bar.analyze()
+    assert (analysis.rank, analysis.redundancy) == (3, 1)
+    assert "cannot be moved" in analysis.document["warnings"][0]
+    for call in (lambda: bar.simulate(1.0), lambda: bar.analyze(0.5), lambda: analysis.along(1.0)):
+        with pytest.raises(pfaff.Error) as raised:
+            call()
+        assert raised.value.code is not None
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_are_read(path: Any) -> None:
+    scene = pfaff.Scene.from_file(path).check()
+    assert len(scene.bodies) > 0
+    assert list(scene.analyze().verdicts) == scene.joints
+
+
+def test_the_package_imports_nothing_large() -> None:
+    code = "import sys, pfaff; print(*sorted(sys.modules))"
+    words = [sys.executable, "-W", "error", "-c", code]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    modules = set(done.stdout.split())
+    assert modules.isdisjoint({"matplotlib", "pandas", "polars", "scipy"})
+
+
+def test_the_example_of_the_package() -> None:
+    import doctest
+
+    failed, tried = doctest.testmod(pfaff)
+    assert tried > 0 and failed == 0
+
+
+def test_the_page_of_the_book(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The blocks of the page run one after the other; README has a scene and its own lines."""
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / "docs" / "book" / "python.md").read_text(encoding="utf-8")
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    for text in (page, readme):
+        blocks = [piece.split("```")[0] for piece in text.split("```python\n")[1:]]
+        assert blocks
+        names: dict[str, Any] = {}
+        for block in blocks:
+            exec(compile(block, "block", "exec"), names)
