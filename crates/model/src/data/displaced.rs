@@ -126,12 +126,7 @@ mod tests {
         };
         let block = d.body(Body::new("block", 1.0, 1.0));
         let both = [BodyRef::Ground, block];
-        let slide = Translational {
-            s_i: [0.0; 2],
-            s_j: [0.0; 2],
-            axis,
-            angle_0: 0.0,
-        };
+        let slide = Translational::new([0.0; 2], [0.0; 2], axis);
         d.joint("slide", &both, slide);
         let slot = PinInSlot {
             s_i: pin,
