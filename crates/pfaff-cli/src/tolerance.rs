@@ -48,6 +48,8 @@ pub(crate) fn run(arguments: &Tolerance, console: &Console<'_>) -> Outcome {
         }
     };
     let study = ToleranceStudy::varying(assembled, arguments.at_time, vary).map_err(failed)?;
+    let memory = study.memory(arguments.runs);
+    arguments.resources.allow(memory, "keeping these samples")?;
     let place = match &arguments.out {
         Some(path) => Some(directory(path, &FILES, arguments.force)?),
         None => None,

@@ -180,6 +180,12 @@ impl<'r> ToleranceStudy<'r> {
         })
     }
 
+    /// Estimated memory of this many samples (bytes).
+    #[must_use]
+    pub fn memory(&self, samples: usize) -> usize {
+        samples.saturating_mul(self.nominal.numbers_of_sample() * size_of::<f64>())
+    }
+
     /// The numbers of the scene that vary.
     fn list(&self) -> &[Variation] {
         self.vary.as_ref().map_or(&[], |vary| &vary.list)

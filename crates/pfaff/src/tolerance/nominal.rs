@@ -257,6 +257,16 @@ impl Nominal {
         })
     }
 
+    /// About how many numbers a sample keeps.
+    pub(super) fn numbers_of_sample(&self) -> usize {
+        let observed = self.mechanism.frames().observed();
+        let places = 2 * self.mechanism.bodies().len() + 3 * observed.markers.len();
+        // A verdict is a pointer and a length.
+        let of_reactions = 2 * self.quantities.len() + 2 * self.reactions.len();
+        // And the lists themselves.
+        of_reactions + places + self.missing.len() + observed.measures.len() + 32
+    }
+
     /// Whether the rank is decided.
     pub(super) fn is_decided(&self) -> bool {
         matches!(self.reading, Reading::Decided)
