@@ -92,3 +92,10 @@ fn made(py: Python<'_>, class: &str, words: &str, document: &str) -> PyErr {
 pub(crate) fn panics(py: Python<'_>) -> PyResult<()> {
     guarded(py, || panic!("as the test wants"))
 }
+
+/// The code of wrong input.
+#[pyfunction]
+pub(crate) fn input_code() -> String {
+    let code = Refusal::input(String::new()).code();
+    code.map_or_else(String::new, |code| code.to_string())
+}

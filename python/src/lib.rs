@@ -24,21 +24,14 @@ mod _pfaff {
     #[pymodule_export]
     use super::analysis::Analysis;
     #[pymodule_export]
-    use super::fault::panics;
+    use super::fault::{input_code, panics};
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]
     use super::scene::{Scene, nearest};
 
-    use pyo3::prelude::*;
-
-    #[pymodule_init]
-    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-        let input = pfaff::refusal::Refusal::input(String::new()).code();
-        module.add(
-            "INPUT",
-            input.map(|code| code.to_string()).unwrap_or_default(),
-        )
-    }
+    /// The version of the package.
+    #[pymodule_export]
+    #[allow(non_upper_case_globals)]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
 }

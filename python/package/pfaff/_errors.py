@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ._pfaff import INPUT
+from ._pfaff import input_code
 
 if TYPE_CHECKING:
     from ._run import Run
@@ -89,5 +89,6 @@ class InternalError(Error, RuntimeError):
 
 def wrong(message: str) -> InputError:
     """The exception for a wrong argument, with the code of wrong input."""
-    document = {"ok": False, "code": INPUT, "error": message, "problems": []}
-    return InputError(f"error[{INPUT}]: {message}", json.dumps(document))
+    code = input_code()
+    document = {"ok": False, "code": code, "error": message, "problems": []}
+    return InputError(f"error[{code}]: {message}", json.dumps(document))

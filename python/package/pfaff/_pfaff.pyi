@@ -1,62 +1,164 @@
-from collections.abc import Sequence
-from typing import Any, final
+# Written by `python python/build.py --write-stubs` from the compiled module.
 
-INPUT: str
-__version__: str
+"""
+The private module.
+"""
+
+from _typeshed import Incomplete, SupportsGetItem
+from os import PathLike
+from typing import Any, Final, SupportsFloat, SupportsIndex, final
+
+__all__ = ["__version__", "Analysis", "Run", "Scene", "_panics", "input_code", "nearest"]
+
+__version__: Final[str]
+"""
+The version of the package.
+"""
 
 @final
 class Analysis:
-    def along(self, /, t_end: float | None) -> str: ...
-    def check_name(self, /, name: str) -> None: ...
-    def combine(self, /, sum: str) -> str: ...
-    def distribution(self, /, choose: Any) -> str: ...
-    def document(self, /, combine: Sequence[str]) -> str: ...
-    def eliminations(self, /, limit: int) -> str: ...
-    def make_unique(self, /, name: str, allow: Any) -> str: ...
-    def moment(self, /, name: str, about: Any) -> str: ...
-    def ranks(self, /) -> tuple[int, int, int]: ...
-    def state(self, /) -> tuple[list[float], list[float]]: ...
-    def words(self, /) -> list[tuple[str, str]]: ...
+    """
+    An analysed configuration. All answers are documents as JSON.
+    """
+    def along(self, /, t_end: SupportsFloat | SupportsIndex | None) -> str:
+        """
+        The verdicts along the motion.
+        """
+    def check_name(self, /, name: str) -> None:
+        """
+        Refuses the name of a joint or drive that does not exist, with the nearest one.
+        """
+    def combine(self, /, sum: str) -> str:
+        """
+        The verdict on a sum of reactions, with its numbers if they are unique.
+        """
+    def distribution(self, /, choose: SupportsFloat | SupportsIndex | None | SupportsGetItem[int, SupportsIndex] | SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex]]) -> str:
+        """
+        The reactions for a choice.
+        """
+    def document(self, /, combine: SupportsGetItem[int, str]) -> str:
+        """
+        The document that `pfaff analyze --json` writes.
+        """
+    def eliminations(self, /, limit: SupportsIndex) -> str:
+        """
+        The number of sets of rows that can be eliminated, and the first of them.
+        """
+    def make_unique(self, /, name: str, allow: str | SupportsGetItem[int, SupportsIndex]) -> str:
+        """
+        The smallest deletions that make a reaction unique.
+        """
+    def moment(self, /, name: str, about: str | SupportsGetItem[int, SupportsFloat | SupportsIndex]) -> str:
+        """
+        The verdict on the moment of a reaction about a point.
+        """
+    def ranks(self, /) -> tuple[int, int, int]:
+        """
+        Rank, redundancy and mobility.
+        """
+    def state(self, /) -> tuple[list[float], list[float]]:
+        """
+        Coordinates and velocities; these are empty if none are known.
+        """
+    def words(self, /) -> list[tuple[str, str]]:
+        """
+        Name and verdict word of each joint and drive.
+        """
 
 @final
 class Run:
+    """
+    A run. Arrays have a row for each time.
+    """
     @property
     def columns(self, /) -> list[tuple[str, str, str]]: ...
     @property
     def document(self, /) -> str: ...
     @property
-    def q(self, /) -> Any: ...
+    def q(self, /) -> Incomplete: ...
     @property
     def reaction_columns(self, /) -> list[tuple[str, str, str]]: ...
     @property
-    def reactions(self, /) -> Any: ...
-    def stopped(self, /) -> Any | None: ...
+    def reactions(self, /) -> Incomplete: ...
+    def stopped(self, /) -> Any | None:
+        """
+        The exception that says why the run stopped before its end, if it did so by itself.
+        """
     @property
-    def t(self, /) -> Any: ...
+    def t(self, /) -> Incomplete: ...
     @property
-    def trajectory(self, /) -> Any: ...
+    def trajectory(self, /) -> Incomplete: ...
     @property
-    def v(self, /) -> Any: ...
+    def v(self, /) -> Incomplete: ...
 
 @final
 class Scene:
+    """
+    The text of a scene. It does not change; what was read from it is kept.
+    """
     def __new__(cls, /, name: str, text: str) -> Scene: ...
-    def analyse(self, /, t: float, length: float | None, angle: float | None, drop: Any) -> Analysis: ...
-    def check(self, /) -> None: ...
+    def analyse(self, /, t: SupportsFloat | SupportsIndex, length: SupportsFloat | SupportsIndex | None, angle: SupportsFloat | SupportsIndex | None, drop: SupportsGetItem[int, SupportsIndex] | None) -> Analysis:
+        """
+        Analyses a configuration.
+        """
+    def check(self, /) -> None:
+        """
+        Reads and assembles the scene; raises what is wrong with it.
+        """
     @staticmethod
-    def from_file(path: str) -> Scene: ...
+    def from_file(path: str | PathLike[str]) -> Scene:
+        """
+        Reads a file.
+        """
     @staticmethod
-    def imported(format: str, path: str, text: str | None, base: str, fixed: bool, snap: bool, keyframe: str | None, pose: Sequence[tuple[str, float]], loops: str | None) -> tuple[Scene, list[str], list[tuple[str, str, int]]]: ...
-    def linearise(self, /, t: float, coordinates: Sequence[str], follow: Sequence[str]) -> str: ...
-    def matrices(self, /, q: Any, v: Any, t: float) -> tuple[Any, Any, Any, Any, Any, Any]: ...
+    def imported(format: str, path: str | PathLike[str], text: str | None, base: str, fixed: bool, snap: bool, keyframe: str | None, pose: SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex]], loops: str | PathLike[str] | None) -> tuple[Scene, list[str], list[tuple[str, str, int]]]:
+        """
+        Makes a scene of a model of a robot. Returns it, and what it says of itself: remarks, and
+        what is left out as pairs of kind and subject.
+        """
+    def linearise(self, /, t: SupportsFloat | SupportsIndex, coordinates: SupportsGetItem[int, str], follow: SupportsGetItem[int, str]) -> str:
+        """
+        The document that `pfaff linearise --json` writes.
+        """
+    def matrices(self, /, q: SupportsGetItem[int, SupportsFloat | SupportsIndex] | None, v: SupportsGetItem[int, SupportsFloat | SupportsIndex] | None, t: SupportsFloat | SupportsIndex) -> tuple[Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete]:
+        """
+        C, the diagonal of M, Γ, Q, b and Φ at coordinates and velocities; those of the start if
+        they are `None`.
+        """
     @property
     def name(self, /) -> str: ...
-    def names(self, /) -> tuple[str, list[str], list[str]]: ...
-    def simulate(self, /, options: Any, numbers_of_choice: bool, on_event: Any, on_row: Any) -> Run: ...
-    def simulate_into(self, /, directory: str, options: Any) -> str: ...
+    def names(self, /) -> tuple[str, list[str], list[str]]:
+        """
+        The name that the scene gives itself, the names of its bodies, and of its joints and drives
+        in the order of the rows.
+        """
+    def simulate(self, /, options: Incomplete, numbers_of_choice: bool, on_event: Any | None, on_row: Any | None) -> Run:
+        """
+        Runs the scene. With `numbers_of_choice` reactions that are not unique have the numbers of
+        the rows that the run keeps, otherwise NaN.
+        """
+    def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete) -> str:
+        """
+        Runs the scene and writes the files of the command into a directory; returns the summary.
+        """
     @property
     def text(self, /) -> str: ...
-    def with_settings(self, /, keys: Sequence[str], expressions: Sequence[str]) -> Scene: ...
+    def with_settings(self, /, keys: SupportsGetItem[int, str], expressions: SupportsGetItem[int, str]) -> Scene:
+        """
+        The same scene with other numbers or expressions.
+        """
 
-def _panics() -> None: ...
-def nearest(name: str, known: Sequence[str]) -> str | None: ...
+def _panics() -> None:
+    """
+    Panics, for the test that no panic leaves this module.
+    """
+
+def input_code() -> str:
+    """
+    The code of wrong input.
+    """
+
+def nearest(name: str, known: SupportsGetItem[int, str]) -> str | None:
+    """
+    The known name that is most similar to a name, if one is.
+    """
