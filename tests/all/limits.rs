@@ -99,6 +99,7 @@ fn limits(text: &str) -> Vec<Limit> {
             .strip_prefix("pub(crate) ")
             .or(line.strip_prefix("pub "));
         let item = visible.unwrap_or(line).strip_prefix("const ");
+        let item = item.filter(|item| !item.starts_with("fn "));
         let Some((name, rest)) = item.and_then(|item| item.split_once(": ")) else {
             continue;
         };

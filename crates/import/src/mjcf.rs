@@ -21,6 +21,10 @@ use compiler::Compiler;
 use defaults::Defaults;
 pub(crate) use names::NAMES;
 
+/// What is left out with actuators that do nothing without a signal, and with others.
+const IDLE_ACTUATORS: &str = "actuators";
+const ACTING: &str = "actuators that act without a signal, too: accelerations differ";
+
 /// What several readers need.
 struct Reader<'a, 'f> {
     files: &'a Files<'a>,
@@ -176,28 +180,25 @@ impl<'a> Reader<'a, '_> {
 
     /// What is left out with an actuator: motors do nothing without a signal, others do.
     fn actuator(&mut self, element: Element<'a>) -> &'static str {
-        const IDLE: &str = "actuators";
-        const ACTS: &str =
-            "actuators that act without a signal (ctrl = 0), too: accelerations differ";
         let has = |element: &Element, key: &str| {
             let value = element.attribute(key);
             value.is_some_and(|value| value.text.split_whitespace().any(|x| x.parse() != Ok(0.0)))
         };
         // Dampers and armatures of an actuator are those of its joint.
         if has(&element, "damping") || has(&element, "armature") {
-            return ACTS;
+            return ACTING;
         }
         match element.name() {
-            "motor" | "damper" | "adhesion" => IDLE,
+            "motor" | "damper" | "adhesion" => IDLE_ACTUATORS,
             "general" => {
                 let bias = self.attributes(element, 0).get("biastype");
                 match bias.as_ref().map_or("none", |value| value.text.trim()) {
-                    "none" => IDLE,
-                    _ => ACTS,
+                    "none" => IDLE_ACTUATORS,
+                    _ => ACTING,
                 }
             }
-            "cylinder" if !has(&element, "bias") => IDLE,
-            _ => ACTS,
+            "cylinder" if !has(&element, "bias") => IDLE_ACTUATORS,
+            _ => ACTING,
         }
     }
 

@@ -362,11 +362,11 @@ fn nothing_is_dropped_in_silence() {
         ("actuators", "m"),
         ("actuators", "g"),
         (
-            "actuators that act without a signal (ctrl = 0), too: accelerations differ",
+            "actuators that act without a signal, too: accelerations differ",
             "p",
         ),
         (
-            "actuators that act without a signal (ctrl = 0), too: accelerations differ",
+            "actuators that act without a signal, too: accelerations differ",
             "a",
         ),
         (
