@@ -232,7 +232,7 @@ fn a_wheel_has_no_arm_and_is_of_some_material() {
         )
     };
     // A wheel of 22 kg with a radius of gyration of 0.22 m has 1.1 kg·m²; a token of a point mass.
-    for meant in ["1.1e6", "\"1.1 kg*m^2\"", "0", "22"] {
+    for meant in ["1.1e6", "\"1.1 kg*m^2\"", "0", "220"] {
         assert_eq!(warned(&scene(meant)), [], "{meant}");
     }
     // In kg·m²: the radius of gyration is 0.22 mm, and a ball of that inertia weighs
