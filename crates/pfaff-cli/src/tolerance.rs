@@ -33,11 +33,7 @@ pub(crate) fn run(arguments: &Tolerance, console: &Console<'_>) -> Outcome {
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     arguments.resources.apply();
     let assembled = arguments.resources.assembled(&source)?;
-    let failed = |e: ToleranceError| match e {
-        ToleranceError::Study(e) => source.failure(e),
-        e if e.is_input() => Failure::input(e.to_string()).coded(e.code()),
-        e => Failure::stopped(e.to_string()).coded(e.code()),
-    };
+    let failed = |e: ToleranceError| failure(&source, e);
     let vary = match &arguments.vary[..] {
         [] => None,
         list => {
@@ -59,7 +55,7 @@ pub(crate) fn run(arguments: &Tolerance, console: &Console<'_>) -> Outcome {
         seed: arguments.seed,
         threads: arguments.resources.threads,
     };
-    let found = sampled(&study, &options).map_err(failed)?;
+    let found = sampled(&source, &study, &options)?;
     let written = match (&place, &arguments.out) {
         (Some(place), Some(path)) => write(place, path, &study, &found)?,
         _ => String::new(),
@@ -79,9 +75,10 @@ pub(crate) fn run(arguments: &Tolerance, console: &Console<'_>) -> Outcome {
 
 /// Makes the samples, with progress on a terminal; if a stop is requested, those so far.
 fn sampled(
+    source: &Source<'_>,
     study: &ToleranceStudy<'_>,
     options: &ToleranceOptions,
-) -> Result<ToleranceResult, ToleranceError> {
+) -> Result<ToleranceResult, Failure> {
     let interrupt = Interrupt::listen().ok();
     let interrupted = || interrupt.as_ref().is_some_and(Interrupt::is_asked);
     // It hides itself if standard error is not a terminal.
@@ -91,7 +88,15 @@ fn sampled(
     }
     let found = study.run(options, interrupted, |_| bar.inc(1));
     bar.finish_and_clear();
-    found
+    found.map_err(|e| failure(source, e))
+}
+
+fn failure(source: &Source<'_>, error: ToleranceError) -> Failure {
+    match error {
+        ToleranceError::Study(e) => source.failure(e),
+        e if e.is_input() => Failure::input(e.to_string()).coded(e.code()),
+        e => Failure::stopped(e.to_string()).coded(e.code()),
+    }
 }
 
 /// Writes all files; returns what was written, in words.

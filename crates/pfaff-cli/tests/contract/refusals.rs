@@ -118,12 +118,6 @@ const COMMANDS: [(&str, &str, bool, bool); 17] = [
     ("check", "-", true, false),
     ("equilibrium", "- --out rest", true, true),
     ("linearise", "- --out modes", true, true),
-    (
-        "tolerance",
-        "- --tolerance 1e-4 --runs 3 --out tolerance",
-        true,
-        true,
-    ),
     ("new", "door", false, true),
     ("import", "- --out -", false, false),
     ("view", "- --no-open", true, true),

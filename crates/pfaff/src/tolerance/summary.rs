@@ -1,5 +1,7 @@
 //! What all samples say together, as a document, and each of them as a row of a table.
 
+use std::cmp::Reverse;
+
 use model::words::rounded;
 use model::{DataUnit, System};
 use report::documents::{
@@ -77,9 +79,12 @@ impl Nominal {
     /// The tolerances in words.
     fn within(&self) -> String {
         let told = |range: Option<[f64; 2]>, words: &dyn Fn(f64) -> String| {
-            range.map(|[least, greatest]| match least == greatest {
-                true => format!("± {}", words(least)),
-                false => format!("± {} to ± {}", words(least), words(greatest)),
+            range.map(|[least, greatest]| {
+                if least == greatest {
+                    format!("± {}", words(least))
+                } else {
+                    format!("± {} to ± {}", words(least), words(greatest))
+                }
             })
         };
         let lengths = told(self.tolerances(DataUnit::Length), &distance);
@@ -119,7 +124,7 @@ impl Nominal {
                 }),
             }
         }
-        ranks.sort_by(|a, b| (b.samples, b.rank).cmp(&(a.samples, a.rank)));
+        ranks.sort_by_key(|own| Reverse((own.samples, own.rank)));
         ranks
     }
 
@@ -423,7 +428,7 @@ fn failures(samples: &[Sample]) -> Vec<FailureDocument> {
         }
     }
     // Equal numbers stay in the order of their first samples.
-    all.sort_by(|a, b| b.samples.cmp(&a.samples));
+    all.sort_by_key(|own| Reverse(own.samples));
     all
 }
 
