@@ -221,7 +221,10 @@ mod tests {
         a[(0, 0)] = 1e-4;
         let modes = with(a, 6).modes().expect("converges");
         assert_eq!(Stability::of(&modes), Stability::Unstable);
-        assert!((modes[0].value[0] - 1e-4).abs() < 1e-12, "{modes:?}");
+        // Heading and track with their rounding: λ² − 1e-4·λ − a₀₅·a₅₀ = 0.
+        let half = 0.5e-4_f64;
+        let expected = half + (half * half - 7.278080531453108e-16).sqrt();
+        assert!((modes[0].value[0] - expected).abs() < 1e-14, "{modes:?}");
     }
 
     /// A mass on a soft spring beside one on a stiff spring and one that is free.
