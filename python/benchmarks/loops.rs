@@ -1,20 +1,14 @@
-//! The same loops as in `measure.py`, in Rust: `cargo run --release --example loops -- SCENE` in
-//! `python`.
-
-use std::time::Instant;
+//! A loop of `measure.py` in Rust: `cargo run --release --example loops -- SCENE text 1000` in
+//! `python`. Analyses the scene so many times, from its `text` or once it was `read`.
 
 use pfaff::model::Registry;
 use pfaff::{Overrides, Study, StudyError};
 
-/// Times each loop is tried; the least time is told.
-const TIMES: usize = 3;
-
-/// Analyses of a loop.
-const ANALYSES: usize = 1000;
-
-#[allow(clippy::print_stdout)]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let path = std::env::args().nth(1).ok_or("need a scene")?;
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [path, what, times] = arguments.as_slice() else {
+        return Err("need a scene, `text` or `read`, and a number".into());
+    };
     let text = std::fs::read_to_string(path)?;
     let registry = Registry::standard();
     let read = || Study::read("robot.toml", &text, &registry, &Overrides::default());
@@ -23,25 +17,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Ok::<_, StudyError>(start.verdict("W3")?.wrench.verdict.is_unique())
     };
     let study = read()?;
-    let tell = |what: &str, work: &dyn Fn() -> Result<(), StudyError>| {
-        let mut least = f64::INFINITY;
-        for _ in 0..TIMES {
-            let begun = Instant::now();
-            for _ in 0..ANALYSES {
-                work()?;
-            }
-            least = least.min(begun.elapsed().as_secs_f64());
-        }
-        println!("Rust, {ANALYSES} {what}: {least:.4} s");
-        Ok::<_, StudyError>(())
-    };
-    tell("analyses from the text", &|| {
-        assert!(!judged(&read()?)?);
-        Ok(())
-    })?;
-    tell("analyses of a scene that was read", &|| {
-        assert!(!judged(&study)?);
-        Ok(())
-    })?;
+    for _ in 0..times.parse()? {
+        let is_unique = if what == "text" {
+            judged(&read()?)?
+        } else {
+            judged(&study)?
+        };
+        assert!(!is_unique, "W3 of the robot is not unique");
+    }
     Ok(())
 }

@@ -1,13 +1,15 @@
 """Measures the installed package; writes one line for each number.
 
 `python/target/venv/bin/python python/benchmarks/measure.py [--command pfaff] [--rust loops]`: the
-command and the program `examples/loops` are compared with if they are given. Each number is the
-least of several.
+command and the program of `loops.rs` are compared with if they are given. Each number is the least
+of several. Loops and runs are told in processor time, of all threads of a process, so that the
+machine need not be idle; imports and the first analysis in both.
 """
 
 from __future__ import annotations
 
 import argparse
+import resource
 import subprocess
 import sys
 import time
@@ -17,49 +19,54 @@ from tempfile import TemporaryDirectory
 
 ROOT = Path(__file__).resolve().parents[2]
 ROBOT = ROOT / "crates" / "robot-trolley" / "robot-trolley.toml"
-
-
-def seconds(work: Callable[[], object], times: int = 5) -> float:
-    """The least time of some."""
-    least = float("inf")
-    for _ in range(times):
-        begun = time.perf_counter()
-        work()
-        least = min(least, time.perf_counter() - begun)
-    return least
+ANALYSES = 1000
+RUNS = 20
 
 
 def told(what: str, number: float, unit: str) -> None:
     """Writes a number."""
     sys.stdout.write(f"{what}: {number:.4g} {unit}\n")
+    sys.stdout.flush()
 
 
-def fresh(code: str) -> float:
-    """What a fresh interpreter says."""
-    words = [sys.executable, "-c", code]
-    least = float("inf")
-    for _ in range(7):
-        done = subprocess.run(words, capture_output=True, text=True, check=True)
-        least = min(least, float(done.stdout))
-    return least
+def least(work: Callable[[], object], times: int = 5) -> float:
+    """Processor time (s) of this process for some work."""
+    found = float("inf")
+    for _ in range(times):
+        begun = time.process_time()
+        work()
+        found = min(found, time.process_time() - begun)
+    return found
 
 
-IMPORT = """
+def of_child(words: list[str | Path], times: int = 5) -> float:
+    """Processor time (s) of another program, from its start to its end."""
+    found = float("inf")
+    for _ in range(times):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run([str(word) for word in words], capture_output=True, check=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        used = after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
+        found = min(found, used)
+    return found
+
+
+def fresh(before: str, code: str) -> tuple[float, float]:
+    """Seconds and processor time of some code in a fresh interpreter."""
+    text = f"""
 import time
 {before}
-begun = time.perf_counter()
-import pfaff
-print(time.perf_counter() - begun)
+wall, own = time.perf_counter(), time.process_time()
+{code}
+print(time.perf_counter() - wall, time.process_time() - own)
 """
-
-FIRST = f"""
-import time
-import pfaff
-text = open({str(ROBOT)!r}, encoding="utf-8").read()
-begun = time.perf_counter()
-assert not pfaff.Scene.from_string(text).analyze().verdicts["W3"].unique
-print(time.perf_counter() - begun)
-"""
+    pairs = []
+    for _ in range(9):
+        words = [sys.executable, "-c", text]
+        done = subprocess.run(words, capture_output=True, text=True, check=True)
+        wall, own = map(float, done.stdout.split())
+        pairs.append((wall, own))
+    return min(wall for wall, _ in pairs), min(own for _, own in pairs)
 
 
 def main() -> None:
@@ -69,58 +76,61 @@ def main() -> None:
     parser.add_argument("--rust", type=Path)
     arguments = parser.parse_args()
 
-    told("import, numpy included", 1e3 * fresh(IMPORT.format(before="")), "ms")
-    told("import after numpy", 1e3 * fresh(IMPORT.format(before="import numpy")), "ms")
-    told("first analysis of the robot from a string", 1e3 * fresh(FIRST), "ms")
+    read = f"import pfaff; text = open({str(ROBOT)!r}, encoding='utf-8').read()"
+    judge = "assert not pfaff.Scene.from_string(text).analyze().verdicts['W3'].unique"
+    for what, before, code in (
+        ("import numpy", "", "import numpy"),
+        ("import, numpy included", "", "import pfaff"),
+        ("import after numpy", "import numpy", "import pfaff"),
+        ("first analysis of the robot from a string", read, judge),
+    ):
+        wall, own = fresh(before, code)
+        told(what, 1e3 * wall, "ms")
+        told(f"{what}, processor time", 1e3 * own, "ms")
 
     import pfaff
 
     text = ROBOT.read_text(encoding="utf-8")
-
-    def analyses() -> None:
-        for _ in range(1000):
-            assert not pfaff.Scene.from_string(text).analyze().verdicts["W3"].unique
-
     scene = pfaff.Scene.from_string(text)
 
-    def again() -> None:
-        for _ in range(1000):
+    def from_text() -> None:
+        for _ in range(ANALYSES):
+            assert not pfaff.Scene.from_string(text).analyze().verdicts["W3"].unique
+
+    def from_scene() -> None:
+        for _ in range(ANALYSES):
             assert not scene.analyze().verdicts["W3"].unique
 
     def documents() -> None:
-        for _ in range(100):
+        for _ in range(ANALYSES // 10):
             assert scene.analyze().document
 
-    told("1000 analyses from the text", seconds(analyses, 3), "s")
-    told("1000 analyses of a scene that was read", seconds(again, 3), "s")
-    told("100 documents of such analyses", seconds(documents, 3), "s")
+    told(f"{ANALYSES} analyses from the text", least(from_text, 3), "s")
+    told(f"{ANALYSES} analyses of a scene that was read", least(from_scene, 3), "s")
+    told(f"{ANALYSES // 10} documents of such analyses", least(documents, 3), "s")
     if arguments.rust:
-        for _ in range(3):
-            done = subprocess.run([arguments.rust, ROBOT], capture_output=True, text=True, check=True)
-            sys.stdout.write(done.stdout)
+        for what in ("text", "read"):
+            loop = [arguments.rust, ROBOT, what]
+            spent = of_child([*loop, str(ANALYSES)], 3) - of_child([*loop, "0"], 3)
+            told(f"Rust, {ANALYSES} analyses, {what}", spent, "s")
 
-    def run() -> None:
-        assert len(pfaff.Scene.from_string(text).simulate(10.0, choose="kept-rows"))
+    def runs(reactions: bool) -> None:
+        for _ in range(RUNS):
+            assert len(pfaff.Scene.from_string(text).simulate(10.0, reactions=reactions)) > 200
 
-    def summary() -> None:
-        assert len(pfaff.Scene.from_string(text).simulate(10.0, reactions=False))
-
-    told("10 s of the robot with arrays", 1e3 * seconds(run), "ms")
-    told("10 s of the robot with arrays, without reactions", 1e3 * seconds(summary), "ms")
+    told("10 s of the robot with arrays", 1e3 * least(lambda: runs(True)) / RUNS, "ms")
+    told("the same without reactions", 1e3 * least(lambda: runs(False)) / RUNS, "ms")
     if arguments.command:
         with TemporaryDirectory() as folder:
             quiet = Path(folder) / "robot.toml"
-            output = "\n[output]\ntrajectory = false\nreactions = {}\nreport = false\n"
             body = text.split("[output]")[0]
-            for reactions in ("false", "true"):
-                quiet.write_text(body + output.format(reactions), encoding="utf-8")
-                words = [arguments.command, "simulate", quiet, "--t-end", "10", "--force", "--out"]
-
-                def command() -> None:
-                    done = [*words, Path(folder) / "run"]
-                    subprocess.run(done, capture_output=True, check=True)
-
-                told(f"the command, reactions = {reactions}", 1e3 * seconds(command), "ms")
+            bare = of_child([arguments.command, "--version"], 9)
+            for reactions in ("true", "false"):
+                output = f"[output]\ntrajectory = false\nreactions = {reactions}\nreport = false\n"
+                quiet.write_text(f"{body}\n{output}", encoding="utf-8")
+                words = [arguments.command, "simulate", quiet, "--t-end", "10", "--force"]
+                spent = of_child([*words, "--out", Path(folder) / "run"], 9) - bare
+                told(f"the command without its start, reactions = {reactions}", 1e3 * spent, "ms")
 
 
 if __name__ == "__main__":

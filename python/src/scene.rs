@@ -240,6 +240,9 @@ fn column(column: &ReportColumn) -> Column {
     ((*kind).to_owned(), owner.clone(), (*number).to_owned())
 }
 
+/// Kind, subject and line of what an import leaves out.
+type Omission = (String, String, usize);
+
 /// C, M (its diagonal), Γ, Q, b and Φ.
 type Matrices = (
     Py<PyArray2<f64>>,
@@ -280,7 +283,7 @@ impl Scene {
         keyframe: Option<String>,
         pose: Vec<(String, f64)>,
         loops: Option<PathBuf>,
-    ) -> PyResult<(Self, Vec<String>, Vec<(String, String, usize)>)> {
+    ) -> PyResult<(Self, Vec<String>, Vec<Omission>)> {
         guarded(py, || {
             let base = Base::ALL
                 .into_iter()
