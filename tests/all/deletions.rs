@@ -203,7 +203,7 @@ fn the_robot_is_explained() {
     assert_eq!(
         e.stresses[0].text,
         "`W3` and `W4` both stop `platform` from slipping sideways along the same line; how the load is shared between them is not \
-         determined; forces 1 : −1 on them cancel, and their sum depends on other reactions that are not determined"
+         determined; `W3.N` = 1 N and `W4.N` = −1 N cancel, and `W3.N + W4.N` depends on other reactions that are not determined"
     );
     // As required for a picture: opposite unit forces on one line.
     let [a, b] = &e.stresses[0].directions[..] else {

@@ -89,8 +89,8 @@ pub(crate) const RIGHT_ANGLE: f64 = 1e-6;
 pub(crate) const LARGEST_NUMBER: f64 = 1e60;
 
 /// Share of the largest entry of a tensor below which its products are the rounding of a rotation
-/// or a sum. Unit: 1. Less: diagonal tensors are written with products such as 1e-19. More: products
-/// that a file states vanish. Test: `rounded_products_are_zero`.
+/// or a sum. Unit: 1. Less: diagonal tensors are written with products such as 1e-19. More:
+/// products that a file states vanish. Test: `rounded_products_are_zero`.
 pub(crate) const ROUNDING: f64 = 1e-15;
 
 /// Difference up to which a coordinate has the value that was asked for. Unit: share of the value,
@@ -126,12 +126,12 @@ pub(crate) const MOST_LISTED: usize = 16;
 /// More: a hostile name fills the screen. Test: `names_that_no_format_knows_are_refused`.
 pub(crate) const SHOWN: usize = 40;
 
-/// Longest name of a scene, less what is added to it. Unit: number of letters. Less: long names that
-/// differ become the same. More: scenes refuse them. Test: `names_are_made_fit_and_told`.
+/// Longest name of a scene, less what is added to it. Unit: number of letters. Less: long names
+/// that differ become the same. More: scenes refuse them. Test: `names_are_made_fit_and_told`.
 pub(crate) const LONGEST_NAME: usize = 900;
 
-/// Width of comments of a scene. Unit: number of letters. Less: more lines. More: lines are broken by
-/// editors. Test: `comments_are_broken_into_lines`.
+/// Width of comments of a scene. Unit: number of letters. Less: more lines. More: lines are broken
+/// by editors. Test: `comments_are_broken_into_lines`.
 pub(crate) const WIDTH: usize = 110;
 
 /// Deepest nesting of lists in a file of loops. Unit: number. Less: pairs in a list are refused.
@@ -142,6 +142,6 @@ pub(crate) const DEEPEST_LIST: usize = 8;
 /// `a_file_without_gravity_has_that_of_the_earth`.
 pub(crate) const GRAVITY: f64 = -9.81;
 
-/// Density of geoms of MuJoCo where none is given. Unit: kg/m³. Less or more: masses are wrong. Test:
-/// `masses_come_from_geoms`.
+/// Density of geoms of MuJoCo where none is given. Unit: kg/m³. Less or more: masses are wrong.
+/// Test: `masses_come_from_geoms`.
 pub(crate) const DENSITY: f64 = 1000.0;

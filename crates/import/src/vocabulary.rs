@@ -84,8 +84,8 @@ fn inner(word: &'static str) -> Option<&'static str> {
 /// What is left out since no format says what it is.
 const EXTENSIONS: &str = "extensions that are not read";
 
-/// Refuses unknown names in an element that a format has, and in those within it; tells what is left
-/// out. `files` are those that may be included.
+/// Refuses unknown names in an element that a format has, and in those within it; tells what is
+/// left out. `files` are those that may be included.
 pub(crate) fn check<'a>(
     element: Element<'a>,
     vocabulary: &Vocabulary,

@@ -4,8 +4,9 @@
 //!
 //! Displacements are uniform: points in the ball of their tolerance, directions and axes turned by
 //! rotation vectors that are uniform in theirs, numbers in their interval. Each point of each body
-//! is displaced by itself, because it is made by itself; a drive has the points of its joint. Masses
-//! and forces stay as they are described, unless they are varied by their keys ([`Variation`]).
+//! is displaced by itself, because it is made by itself; a drive has the points of its joint.
+//! Masses and forces stay as they are described, unless they are varied by their keys
+//! ([`Variation`]).
 //!
 //! Where rows are redundant within the tolerances, samples are assembled on the rows that are kept:
 //! the others miss by a little, which is a result. What the same numbers are without play is the

@@ -79,8 +79,13 @@ pub(super) fn of_bodies(
     let own = |j: &usize| bodies.contains(&space.body_of(*j));
     let columns: Vec<usize> = (0..v.len()).filter(own).collect();
     let fastest = |turns: bool| {
-        let own = columns.iter().filter(|&&j| space.is_rotation(j) == turns);
-        own.map(|&j| v[j].abs()).fold(0.0, f64::max)
+        let speed = |&body: &usize| {
+            let of_body = space
+                .columns_of(body)
+                .filter(|j| space.is_rotation(*j) == turns);
+            of_body.map(|j| v[j]).fold(0.0, f64::hypot)
+        };
+        bodies.iter().map(speed).fold(0.0, f64::max)
     };
     let (turn, slide) = (fastest(true), fastest(false));
     // A force for each of its metres, or a moment for each radian if it turns as much as it moves.

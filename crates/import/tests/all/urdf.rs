@@ -163,7 +163,8 @@ fn loops_that_cannot_close_are_refused() {
         message.contains("`tip of three to tip of four`"),
         "{message}"
     );
-    // Sides 3 and 4 reach 7: 7.0003 is open by 4e-5 of the size, which rounding may be, 7.01 by 1e-3.
+    // Sides 3 and 4 reach 7: 7.0003 is open by 4e-5 of the size, which rounding may be, 7.01 by
+    // 1e-3.
     let far = |base: &str| {
         let text = text_of("urdf/triangle.urdf").replace("\"5 0 0\"", &format!("\"{base} 0 0\""));
         import::import("far.urdf", &text, &options)

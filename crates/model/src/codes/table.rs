@@ -1119,7 +1119,7 @@ pub const TABLE: &[Entry] = &[
         512,
         "A mechanism is too large for samples of its tolerances",
         "Make a scene of a part of it.",
-        Example::None("needs a large scene"),
+        Example::None("it needs a large scene"),
     ),
     entry(
         513,

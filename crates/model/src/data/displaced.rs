@@ -211,7 +211,8 @@ mod tests {
         let changed = door.with_numbers(&numbers);
         changed.pose(0.0, &q, &mut s);
         changed.phi(&mut s);
-        // The axes of the two bodies are now a milliradian apart, and the points are where they were.
+        // The axes of the two bodies are now a milliradian apart, and the points are where they
+        // were.
         let largest = s.phi.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         assert!((largest - 1e-3).abs() < 1e-9, "{:?}", s.phi);
     }

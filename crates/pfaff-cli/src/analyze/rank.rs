@@ -131,8 +131,8 @@ fn proof(d: &AnalysisDocument) -> String {
         ),
         // The bound of `rank` for what vanishes.
         _ if next <= 1e-26 => format!(
-            "rank {r} proved; σ_{} vanishes in doubled precision (below 1e-26), with forces and lever arms that are rounding of the data taken \
-             as zero: {others} redundant to within that rounding",
+            "rank {r} proved; σ_{} vanishes in doubled precision (below 1e-26), where lever arms that are rounding count as zero: {others} \
+             redundant to within the rounding of the data",
             r + 1
         ),
         _ => format!(

@@ -44,8 +44,8 @@ pub(crate) struct Known {
     /// Tolerance of points and lengths of the scene (m, or as 0.1mm), in place of its `tolerance`
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = length)]
     pub(crate) tolerance: Option<f64>,
-    /// Tolerance of directions, angles and ratios (rad, or as 0.01deg), in place of `angle_tolerance`; if neither
-    /// is given: LENGTH divided by the mechanism's size
+    /// Tolerance of directions, angles and ratios (rad, or as 0.01deg), in place of
+    /// `angle_tolerance`; if neither is given: LENGTH divided by the mechanism's size
     #[arg(long, value_name = "RAD", allow_hyphen_values = true, value_parser = angle)]
     pub(crate) angle_tolerance: Option<f64>,
 }

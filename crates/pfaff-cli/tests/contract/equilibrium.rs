@@ -139,8 +139,8 @@ fn what_does_not_rest_is_refused_with_its_code() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// A rod that a motor holds level and swings from there: at rest the motor carries its weight alone,
-/// and small motions about the written start are those of the place held.
+/// A rod that a motor holds level and swings from there: at rest the motor carries its weight
+/// alone, and small motions about the written start are those of the place held.
 #[test]
 fn drives_are_held_without_acceleration() {
     let swung = format!(

@@ -18,6 +18,7 @@ fn pendulum(moments: &str) -> String {
 #[test]
 fn rotors_are_counted() {
     let folder = Folder::new("import-rotors");
+    fs::create_dir_all(&folder.0).expect("a folder");
     let out = folder.0.join("scene.toml").display().to_string();
     let arguments = ["import", "-", "--out", &out];
     let words = stdout(&with_scene(&arguments, &pendulum("0.1 0.1 0.01")));
@@ -32,6 +33,7 @@ fn rotors_are_counted() {
 #[test]
 fn a_scene_with_an_error_is_no_success() {
     let folder = Folder::new("import-error");
+    fs::create_dir_all(&folder.0).expect("a folder");
     let out = folder.0.join("scene.toml").display().to_string();
     let text = pendulum("0.1 0.1 0.9");
     let output = with_scene(&["import", "-", "--out", &out], &text);

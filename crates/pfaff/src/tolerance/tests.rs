@@ -113,7 +113,8 @@ fn all_points_of_a_beam_together_stay_within_the_sum() {
     assert!(d.misfits.is_empty() && d.undecided == 0);
 }
 
-/// Three cranks of half a metre at 0.7 rad, 6 kg in all; the third is pinned `off` beside its place.
+/// Three cranks of half a metre at 0.7 rad, 6 kg in all; the third is pinned `off` beside its
+/// place.
 fn three_cranks(off: f64, tolerance: f64) -> String {
     let (c, s) = (0.5 * 0.7_f64.cos(), 0.5 * 0.7_f64.sin());
     let (mut bodies, mut joints) = (String::new(), String::new());

@@ -149,7 +149,7 @@ fn squeezed(text: &str) -> String {
 fn analysis_has_the_keys_of_the_contract() {
     let found = json(&AnalysisDocument::new("door", &analysis(), None));
     let expected = r#"{
-        "scene": "door", "time": 0.5, "bodies": 1, "coordinates": 3, "rows": 4,
+        "scene": "door", "time": 0.5, "bodies": 1, "coordinates": 3, "velocities": 3, "rows": 4,
         "holonomic_rows": 4, "nonholonomic_rows": 0,
         "rank": 3, "rank_holonomic": 3, "rank_nonholonomic": 0, "redundancy": 1, "mobility": 0,
         "without_drives": null, "free_motions": [], "cannot_move": false,

@@ -433,7 +433,7 @@ impl ToleranceDocument {
 ///
 /// ```
 /// use report::documents::distance;
-/// assert_eq!([0.0, 1e-4, 2.345e-3, 1e-7, 2.0].map(distance), ["0 mm", "0.1 mm", "2.35 mm", "0.1 µm", "2 m"]);
+/// assert_eq!([0.0, 1e-4, 2.346e-3, 1e-7, 2.0].map(distance), ["0 mm", "0.1 mm", "2.35 mm", "0.1 µm", "2 m"]);
 /// ```
 #[must_use]
 pub fn distance(metres: f64) -> String {

@@ -52,7 +52,7 @@ fn a_large_correction_points_at_the_joint_that_misses() {
         "{error}"
     );
     let d = scene.locate_start(&error).expect("a place");
-    assert_eq!(&text_of(&scene)[d.primary.span.clone()], "A");
+    assert_eq!(&text_of(&scene)[d.primary.span.clone()], "\"A\"");
     // √(3² + 2²)
     assert!(
         error.to_string().contains("these miss: `A` by 3.606 m;"),

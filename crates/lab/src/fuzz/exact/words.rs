@@ -181,27 +181,20 @@ impl Dependency<'_> {
             .flat_map(|&l| &self.truth.posed.links[l].link.sides);
         let bodies: Vec<String> = sides.map(|side| text::name(*side)).collect();
         for quoted in text.split('`').skip(1).step_by(2) {
-            if !joints.iter().chain(&bodies).any(|known| known == quoted) {
+            // A name, or terms as `0.5*name.Fx`.
+            let mut terms = quoted
+                .split([' ', '*'])
+                .filter(|t| t.parse::<f64>().is_err());
+            let is_known = |term: &str| {
+                let of = term.rsplit_once('.').map_or(term, |(name, _)| name);
+                matches!(term, "+" | "-") || joints.iter().chain(&bodies).any(|known| known == of)
+            };
+            if !terms.all(is_known) {
                 self.note(findings, format!("`{quoted}` takes no part: {text}"));
             }
         }
-        let right = self.right();
-        for (lead, expected) in [
-            (" in the ratio ", right.clone()),
-            (
-                " their sum with weights ",
-                right
-                    .iter()
-                    .rev()
-                    .zip([1.0, -1.0])
-                    .map(|(x, s)| s * x)
-                    .collect(),
-            ),
-        ] {
-            let Some((_, rest)) = text.split_once(lead) else {
-                continue;
-            };
-            let printed = ratio(rest);
+        if let Some((_, rest)) = text.split_once(" in the ratio ") {
+            let (printed, expected) = (ratio(rest), self.right());
             let sizes = printed.iter().zip(&expected).all(|(a, b)| {
                 let (first, other) = (printed[0] / expected[0], a / b);
                 (other / first - 1.0).abs() <= 4.0 * FOUR_DIGITS
@@ -210,13 +203,14 @@ impl Dependency<'_> {
                 self.note(findings, format!("the ratio is {expected:?}: {text}"));
             }
         }
+        self.told_loads(text, &links, findings);
         if let [i, j] = *self.rows {
             let is_unique = self.truth.sum_is_unique([i, j], self.circuit);
             let says = |words: &str| text.contains(words);
-            if says("their sum with weights") && !is_unique {
+            if says("` is determined") && !is_unique {
                 self.note(findings, format!("the sum is not determined: {text}"));
             }
-            if says("their sum depends on other") && is_unique {
+            if says("` depends on other reactions") && is_unique {
                 self.note(findings, format!("the sum is determined: {text}"));
             }
         }
@@ -235,6 +229,78 @@ impl Dependency<'_> {
             self.note(findings, format!("they do not push: {text}"));
         }
     }
+}
+
+impl Dependency<'_> {
+    /// Compares the loads that a sentence tells, "`a.Fx` = 1 N and `b.N` = −0.5 N cancel", and the
+    /// combination of two of them that they leave as it is.
+    fn told_loads(&self, text: &str, links: &[usize], findings: &mut Findings) {
+        let told = told(text);
+        if told.is_empty() {
+            return;
+        }
+        let posed = self.truth.posed;
+        let (mut answer, mut right, mut signs) = (Vec::new(), Vec::new(), Vec::new());
+        for &link in links {
+            let name = posed.links[link].link.name.as_str();
+            let Some(carried) = self.truth.carried(link, self.rows, self.circuit) else {
+                return;
+            };
+            let numbers = carried.rounded(posed);
+            let own = |axis: &str| {
+                let mut own = told
+                    .iter()
+                    .filter(|(of, component, _)| *of == name && *component == axis);
+                own.next().map(|(.., value)| *value)
+            };
+            // Along the edge of a blade the multiplier of its row is the force.
+            if let Some(value) = own("N") {
+                answer.push(value.abs());
+                right.push(numbers[0].hypot(numbers[1]));
+                let at = self
+                    .rows
+                    .iter()
+                    .position(|&i| self.truth.rows[i].link == link);
+                signs.extend(at.map(|at| value * self.right()[at]));
+                continue;
+            }
+            answer.extend(["Fx", "Fy", "T"].map(|axis| own(axis).unwrap_or(0.0)));
+            right.extend(numbers);
+        }
+        let is_one_sign = signs.windows(2).all(|pair| pair[0] * pair[1] > 0.0);
+        if !are_proportional(&answer, &right, 4.0 * FOUR_DIGITS) || !is_one_sign {
+            let text = format!("the loads are {right:?} but for a factor: {text}");
+            self.note(findings, text);
+        }
+        // `a.Fx - 0.5*b.Fy`: the loads of both cancel in it.
+        let combination = text.split('`').skip(1).step_by(2).find(|q| q.contains(' '));
+        let terms = combination.map(|q| q.splitn(3, ' ').collect::<Vec<_>>());
+        if let Some([first, sign, second]) = terms.as_deref() {
+            let (weight, second) = second.split_once('*').unwrap_or(("1", second));
+            let load = |term: &str| {
+                let mut same = told.iter().filter(|(of, c, _)| format!("{of}.{c}") == term);
+                same.next().map_or(f64::NAN, |(.., value)| *value)
+            };
+            let weight: f64 = weight.parse().unwrap_or(f64::NAN);
+            let signed = if *sign == "-" { -weight } else { weight };
+            let left = load(first) + signed * load(second);
+            if left.is_nan() || left.abs() > 4.0 * FOUR_DIGITS * load(first).abs() {
+                self.note(findings, format!("the loads do not cancel in it: {text}"));
+            }
+        }
+    }
+}
+
+/// The loads of a sentence: joint, component, value.
+fn told<'t>(text: &'t str) -> Vec<(&'t str, &'t str, f64)> {
+    let parts: Vec<&str> = text.split('`').collect();
+    let quoted = parts.iter().zip(parts.iter().skip(1)).skip(1).step_by(2);
+    let load = |(quoted, behind): (&&'t str, &&'t str)| {
+        let number = behind.strip_prefix(" = ")?.split(' ').next()?;
+        let (name, component) = quoted.rsplit_once('.')?;
+        Some((name, component, number.replace('−', "-").parse().ok()?))
+    };
+    quoted.filter_map(load).collect()
 }
 
 /// Whether one list is a multiple of the other, with the same zeros.

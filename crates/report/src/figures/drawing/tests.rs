@@ -12,8 +12,8 @@ use crate::recording::Frame;
 const ROUNDING: f64 = 1e-12;
 
 /// Curves of pages have 100 000 levels: those of centres, which move by up to 1 m here, are off by
-/// half a level of 1e-5 m, and those of quaternions, which change by up to 2, by 1e-5 in each of two
-/// numbers, which turn an arm of 1 m by twice as much.
+/// half a level of 1e-5 m, and those of quaternions, which change by up to 2, by 1e-5 in each of
+/// two numbers, which turn an arm of 1 m by twice as much.
 const PAGE: f64 = 0.5e-5 + 2.0 * 1.414 * 1e-5;
 
 const DIAGONAL: [[f64; 3]; 3] = [[0.02, 0.0, 0.0], [0.0, 0.03, 0.0], [0.0, 0.0, 0.04]];
