@@ -25,6 +25,8 @@ mod not_unique {}
 mod own_joint {}
 #[doc = include_str!("../docs/book/import.md")]
 mod models_of_robots {}
+#[doc = include_str!("../docs/book/python.md")]
+mod python {}
 #[doc = include_str!("../docs/book/accuracy.md")]
 mod accuracy {}
 #[doc = include_str!("../docs/book/speed.md")]
