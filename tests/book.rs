@@ -35,6 +35,8 @@ mod own_joint {}
 mod python {}
 #[doc = include_str!("../docs/book/import.md")]
 mod models_of_robots {}
+#[doc = include_str!("../docs/book/python.md")]
+mod python {}
 #[doc = include_str!("../docs/book/accuracy.md")]
 mod accuracy {}
 #[doc = include_str!("../docs/book/speed.md")]

@@ -277,3 +277,14 @@ def test_a_run_in_a_child_process() -> None:
     text = pickle.dumps(pfaff.Scene.from_string(PENDULUM))
     done = subprocess.run([sys.executable, "-W", "error", "-c", code], input=text, capture_output=True, check=True)
     assert int(done.stdout) == 201
+
+
+def test_plots() -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    run = pfaff.Scene.from_string(PENDULUM).simulate()
+    axes = run.plot()
+    assert [line.get_label() for line in axes.lines] == ["bob.x", "bob.y"]
+    axes = run.plot("pivot.Fx")
+    np.testing.assert_array_equal(axes.lines[0].get_ydata(), run.reaction("pivot").force[:, 0])
+    matplotlib.pyplot.close("all")
