@@ -31,8 +31,6 @@ mod in_space {}
 mod gears {}
 #[doc = include_str!("../docs/book/own-joint.md")]
 mod own_joint {}
-#[doc = include_str!("../docs/book/python.md")]
-mod python {}
 #[doc = include_str!("../docs/book/import.md")]
 mod models_of_robots {}
 #[doc = include_str!("../docs/book/python.md")]

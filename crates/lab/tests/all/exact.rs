@@ -263,14 +263,11 @@ fn a_changed_document_is_found_out() {
     }
     let sentences = [
         ("/dependencies/0/text", "`j1`", "`j2`"),
-        ("/dependencies/0/text", " 1 : ", " 1.1 : "),
+        ("/dependencies/0/text", "` = 0.9231 N", "` = 0.9331 N"),
+        ("/dependencies/0/text", "j0.Fx + j1.Fx", "j0.Fx - j1.Fx"),
         ("/mixing/0/text", "`j1`", "`j2`"),
         ("/reactions/0/explanation", "`j1`", "`j2`"),
-        (
-            "/reactions/0/explanation",
-            "nothing of it is determined",
-            "determined is Fx",
-        ),
+        ("/reactions/0/explanation", "0.9231·Fy only", "0.5·Fy only"),
     ];
     for (pointer, words, other) in sentences {
         let mut changed = document.clone();

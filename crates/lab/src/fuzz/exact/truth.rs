@@ -42,6 +42,28 @@ impl Reaction {
         }
     }
 
+    /// An integer multiple of a component in the world, the same for all reactions of a joint;
+    /// `None` if there is none.
+    fn whole(&self, component: &str, posed: &Posed) -> Option<BigInt> {
+        let [c, s] = posed.turn;
+        let [x, y] = &self.force;
+        let sum = |a: Ratio, b: Ratio| match posed.stretch {
+            1 => {
+                let whole = |p: Ratio, q: Ratio| BigInt::from(p.numerator() * q.denominator());
+                Some(whole(a, b) * x + whole(b, a) * y)
+            }
+            _ if b.is_zero() => Some(x.clone()),
+            _ if a.is_zero() => Some(y.clone()),
+            _ => None,
+        };
+        match component {
+            "Fx" => sum(c, -s),
+            "Fy" => sum(s, c),
+            "T" => Some(self.moment.clone()),
+            _ => None,
+        }
+    }
+
     /// Fx, Fy, T in the world, in a unit that is the same for all reactions of a drawing.
     #[must_use]
     pub fn rounded(&self, posed: &Posed) -> [f64; 3] {
@@ -233,13 +255,42 @@ impl<'a> Truth<'a> {
         own.into_iter().map(|x| x / largest).collect()
     }
 
-    /// Whether `c_j·λ_i − c_i·λ_j` is the same in all solutions; `(c_i, c_j)` is the circuit of two
-    /// rows.
+    /// Whether the combination of two components of reactions that a circuit leaves as it is, is
+    /// the same in all solutions. `N` is the only multiplier of its joint. `None` if a component is
+    /// not rational.
     #[must_use]
-    pub fn sum_is_unique(&self, [i, j]: [usize; 2], circuit: &[BigInt]) -> bool {
+    pub fn pair_is_unique(
+        &self,
+        (rows, circuit): (&[usize], &[BigInt]),
+        pair: [(usize, &str); 2],
+    ) -> Option<bool> {
+        let mut parts = Vec::new();
+        for (link, component) in pair {
+            let mut coefficients = Vec::new();
+            for i in self.rows_of(link) {
+                let value = match component {
+                    "N" => BigInt::from(1),
+                    _ => {
+                        let of_row = self.about_place(link, self.whole_wrench(i))?;
+                        of_row.whole(component, self.posed)?
+                    }
+                };
+                coefficients.push((i, value));
+            }
+            let in_circuit = |i: &usize| rows.iter().position(|row| row == i);
+            let load: BigInt = coefficients
+                .iter()
+                .filter_map(|(i, c)| Some(c * &circuit[in_circuit(i)?]))
+                .sum();
+            parts.push((coefficients, load));
+        }
         let mut l = vec![BigInt::zero(); self.rows.len()];
-        (l[i], l[j]) = (circuit[1].clone(), -circuit[0].clone());
-        self.exact.determines(&l)
+        for (own, other, sign) in [(0, 1, 1), (1, 0, -1)] {
+            for (i, c) in &parts[own].0 {
+                l[*i] += c * &parts[other].1 * BigInt::from(sign);
+            }
+        }
+        Some(self.exact.determines(&l))
     }
 
     /// The wrench on the first body of a joint for multipliers of its rows, as integer multiples.

@@ -204,16 +204,6 @@ impl Dependency<'_> {
             }
         }
         self.told_loads(text, &links, findings);
-        if let [i, j] = *self.rows {
-            let is_unique = self.truth.sum_is_unique([i, j], self.circuit);
-            let says = |words: &str| text.contains(words);
-            if says("` is determined") && !is_unique {
-                self.note(findings, format!("the sum is not determined: {text}"));
-            }
-            if says("` depends on other reactions") && is_unique {
-                self.note(findings, format!("the sum is determined: {text}"));
-            }
-        }
         let forces = links
             .iter()
             .filter_map(|&l| self.truth.carried(l, self.rows, self.circuit));
@@ -240,7 +230,8 @@ impl Dependency<'_> {
             return;
         }
         let posed = self.truth.posed;
-        let (mut answer, mut right, mut signs) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut answer, mut right) = (Vec::new(), Vec::new());
+        let (mut signs, mut blades) = (Vec::new(), Vec::new());
         for &link in links {
             let name = posed.links[link].link.name.as_str();
             let Some(carried) = self.truth.carried(link, self.rows, self.circuit) else {
@@ -255,6 +246,7 @@ impl Dependency<'_> {
             };
             // Along the edge of a blade the multiplier of its row is the force.
             if let Some(value) = own("N") {
+                blades.push(right.len());
                 answer.push(value.abs());
                 right.push(numbers[0].hypot(numbers[1]));
                 let at = self
@@ -264,11 +256,24 @@ impl Dependency<'_> {
                 signs.extend(at.map(|at| value * self.right()[at]));
                 continue;
             }
+            // A drive pushes or turns.
+            if let Some(value) = own("drive") {
+                blades.push(right.len());
+                answer.push(value.abs());
+                right.push(numbers.into_iter().fold(0.0, f64::hypot));
+                continue;
+            }
             answer.extend(["Fx", "Fy", "T"].map(|axis| own(axis).unwrap_or(0.0)));
             right.extend(numbers);
         }
         let is_one_sign = signs.windows(2).all(|pair| pair[0] * pair[1] > 0.0);
-        if !are_proportional(&answer, &right, 4.0 * FOUR_DIGITS) || !is_one_sign {
+        // Of a blade and a drive only the size is known here, and all loads may be told with the other sign.
+        let mut other = right.clone();
+        blades.iter().for_each(|&at| other[at] *= -1.0);
+        let told_right = [&right, &other]
+            .iter()
+            .any(|right| are_proportional(&answer, right, 4.0 * FOUR_DIGITS));
+        if !told_right || !is_one_sign {
             let text = format!("the loads are {right:?} but for a factor: {text}");
             self.note(findings, text);
         }
@@ -286,6 +291,23 @@ impl Dependency<'_> {
             let left = load(first) + signed * load(second);
             if left.is_nan() || left.abs() > 4.0 * FOUR_DIGITS * load(first).abs() {
                 self.note(findings, format!("the loads do not cancel in it: {text}"));
+            }
+            let of = |term: &'_ str| {
+                let (name, component) = term.rsplit_once('.')?;
+                let mut own = links.iter();
+                let link = own.find(|&&link| posed.links[link].link.name == name)?;
+                Some((*link, component.to_owned()))
+            };
+            let pair = of(first).zip(of(second));
+            let is_unique = pair.and_then(|((i, c), (j, d))| {
+                let circuit = (self.rows, self.circuit);
+                self.truth.pair_is_unique(circuit, [(i, &c), (j, &d)])
+            });
+            if text.contains("` is determined") && is_unique == Some(false) {
+                self.note(findings, format!("it is not determined: {text}"));
+            }
+            if text.contains("` depends on other reactions") && is_unique == Some(true) {
+                self.note(findings, format!("it is determined: {text}"));
             }
         }
     }
