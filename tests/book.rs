@@ -33,6 +33,8 @@ mod gears {}
 mod own_joint {}
 #[doc = include_str!("../docs/book/import.md")]
 mod models_of_robots {}
+#[doc = include_str!("../docs/book/tolerance.md")]
+mod data_within_tolerances {}
 #[doc = include_str!("../docs/book/python.md")]
 mod python {}
 #[doc = include_str!("../docs/book/accuracy.md")]

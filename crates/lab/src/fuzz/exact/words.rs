@@ -267,7 +267,8 @@ impl Dependency<'_> {
             right.extend(numbers);
         }
         let is_one_sign = signs.windows(2).all(|pair| pair[0] * pair[1] > 0.0);
-        // Of a blade and a drive only the size is known here, and all loads may be told with the other sign.
+        // Of a blade and a drive only the size is known here, and all loads may be told with the
+        // other sign.
         let mut other = right.clone();
         blades.iter().for_each(|&at| other[at] *= -1.0);
         let told_right = [&right, &other]
