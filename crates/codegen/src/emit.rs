@@ -1,5 +1,6 @@
 //! The text of a generated module: type, facts, kernels.
 
+mod constructors;
 mod data;
 mod facts;
 mod parts;

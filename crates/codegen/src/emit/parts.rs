@@ -4,6 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 use symbolic::{Expr, Scalar};
 
+use super::constructors;
 use crate::data::Datum;
 use crate::elaborate::{Comparison, Condition, Counted, KeptValue, Measure, Model};
 use crate::kernel::kernel;
@@ -175,7 +176,7 @@ pub(super) fn structure(
         }),
         Some(Driven::Rows) | None => None,
     };
-    let constructors = constructors(d, model, name, driven);
+    let constructors = constructors::constructors(d, model, name, driven);
     quote! {
         #(#[doc = #doc])*
         #[derive(Clone, Debug, PartialEq)]
@@ -186,80 +187,6 @@ pub(super) fn structure(
         }
 
         #constructors
-    }
-}
-
-/// `new` with the parameters that have no default, and a method for each that has one. The values
-/// kept from the start are set by `initialise` and cannot be given.
-fn constructors(
-    d: &Definition,
-    model: &Model,
-    name: &Ident,
-    driven: Option<Driven>,
-) -> TokenStream {
-    let stored = || {
-        d.params
-            .iter()
-            .filter_map(|p| Some((p, field_type(d.space, p)?)))
-    };
-    let (optional, required): (Vec<_>, Vec<_>) = stored().partition(|(p, _)| p.default.is_some());
-    let arguments = required.iter().map(|(p, ty)| {
-        let name = &p.name;
-        quote!(#name: #ty)
-    });
-    let fields = stored().map(|(p, _)| {
-        let name = &p.name;
-        match p.default {
-            Some(_) => quote!(#name: None),
-            None => quote!(#name),
-        }
-    });
-    let kept = model.kept.iter().map(|k| {
-        let name = format_ident!("{}", k.field);
-        match k.kind {
-            Kept::Number(_) => quote!(#name: 0.0),
-            Kept::Vector(_) => {
-                let dim = index(d.space.dim());
-                quote!(#name: [0.0; #dim])
-            }
-            Kept::Turn => quote!(#name: [1.0, 0.0]),
-        }
-    });
-    let fields = fields.chain(kept).chain(driven.and_then(measure_0));
-    // The lints are about the number of parameters, which is that of the definition.
-    let lints = match required.len() {
-        0 => Some(quote!(#[allow(clippy::new_without_default)])),
-        8.. => Some(quote!(#[allow(clippy::too_many_arguments)])),
-        _ => None,
-    };
-    let doc = match (required.is_empty(), optional.is_empty()) {
-        (true, _) => " It has no parameters that must be given.",
-        (false, true) => " From its parameters, in the order of its fields.",
-        (false, false) => " From the parameters that have no default, in the order of its fields.",
-    };
-    let with = optional.iter().map(|(p, _)| {
-        let (field, doc) = (&p.name, format!(" The same, with `{}`.", p.name));
-        let method = format_ident!("with_{}", field);
-        quote! {
-            #[doc = #doc]
-            #[must_use]
-            #[allow(dead_code)]
-            pub const fn #method(mut self, #field: f64) -> Self {
-                self.#field = Some(#field);
-                self
-            }
-        }
-    });
-    quote! {
-        impl #name {
-            #[doc = #doc]
-            #[must_use]
-            #lints
-            pub const fn new(#(#arguments),*) -> Self {
-                Self { #(#fields),* }
-            }
-            #(#with)*
-        }
     }
 }
 
@@ -322,7 +249,7 @@ fn param_doc(p: &Param, d: &Definition) -> String {
 }
 
 /// Functions of time are not fields: they are passed as jets.
-fn field_type(space: Space, p: &Param) -> Option<TokenStream> {
+pub(super) fn field_type(space: Space, p: &Param) -> Option<TokenStream> {
     Some(match &p.kind {
         ParamKind::Point(_) => vector(space),
         ParamKind::Direction(_) => quote!(Direction),
@@ -340,13 +267,13 @@ fn field_type(space: Space, p: &Param) -> Option<TokenStream> {
 }
 
 /// The type of the components of a vector.
-fn vector(space: Space) -> TokenStream {
+pub(super) fn vector(space: Space) -> TokenStream {
     let dim = index(space.dim());
     quote!([f64; #dim])
 }
 
 /// The field of the initial measure, before the start is known.
-fn measure_0(by: Driven) -> Option<TokenStream> {
+pub(super) fn measure_0(by: Driven) -> Option<TokenStream> {
     match by {
         Driven::Measure => Some(quote!(measure_0: 0.0)),
         Driven::Turn => Some(quote!(measure_0: [1.0, 0.0])),
