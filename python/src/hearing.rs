@@ -1,13 +1,47 @@
-//! What a run hears of Python on its way: Ctrl-C, and callbacks that raise or ask it to end.
+//! What long work hears of Python on its way: Ctrl-C, and callbacks that raise or ask it to end.
 
+use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
+use std::thread;
+use std::time::{Duration, Instant};
 
+use pfaff::refusal::Refusal;
 use pyo3::prelude::*;
+
+use crate::fault::Fault;
 
 /// Time (ms) between two looks for signals.
 const BETWEEN: u64 = 20;
+
+/// Does work that asks `ends` often and is not asked for anything by Python: it goes on a thread of
+/// its own, and this one, on which alone Python hears signals, listens until it is done. An
+/// exception goes before its result.
+pub(crate) fn heard<T: Send>(
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<T, Fault> + Send,
+) -> Result<T, Fault> {
+    let hearing = Hearing::new();
+    let asked = || hearing.ends.load(Ordering::Relaxed);
+    let (ended, waits) = channel::<()>();
+    let done = thread::scope(|scope| {
+        let worker = thread::Builder::new().spawn_scoped(scope, || {
+            // Dropped at the end, also by a panic.
+            let _ended = ended;
+            work(&asked)
+        });
+        let worker = worker.map_err(|e| Refusal::stopped(format!("cannot start a thread: {e}")))?;
+        let between = Duration::from_millis(BETWEEN);
+        while waits.recv_timeout(between) == Err(RecvTimeoutError::Timeout) {
+            hearing.ends();
+        }
+        worker.join().unwrap_or_else(|panic| resume_unwind(panic))
+    });
+    match hearing.raised() {
+        Some(raised) => Err(raised.into()),
+        None => done,
+    }
+}
 
 /// Hears signals and exceptions during one run.
 pub(crate) struct Hearing {

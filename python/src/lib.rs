@@ -10,12 +10,16 @@
 //! | `options` | words and numbers from Python as options of the library |
 //! | `analysis` | one configuration with its verdicts |
 //! | `run` | the rows of a run as arrays |
+//! | `samples` | a scene whose data vary within their tolerances |
+//! | `comparison` | a scene by every method: error against run time |
 
 mod analysis;
+mod comparison;
 mod fault;
 mod hearing;
 mod options;
 mod run;
+mod samples;
 mod scene;
 
 /// The private module.
@@ -29,6 +33,11 @@ mod _pfaff {
     use super::run::Run;
     #[pymodule_export]
     use super::scene::{Scene, nearest};
+
+    #[pymodule_export]
+    use super::comparison::work_precision;
+    #[pymodule_export]
+    use super::samples::tolerance;
 
     /// The version of the package.
     #[pymodule_export]

@@ -82,7 +82,7 @@ fn method(name: &str) -> Result<Method, Fault> {
     })
 }
 
-fn threads(threads: usize) -> Result<NonZeroUsize, Fault> {
+pub(crate) fn threads(threads: usize) -> Result<NonZeroUsize, Fault> {
     NonZeroUsize::new(threads).ok_or_else(|| wrong("threads is 0, need a number > 0".to_owned()))
 }
 

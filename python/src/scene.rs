@@ -25,7 +25,7 @@ use crate::hearing::Hearing;
 use crate::options::{RunOptions, rows_from_zero, tolerance, unknown};
 use crate::run::{Column, Recorded, Run, by_rows};
 
-static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standard);
+pub(crate) static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standard);
 
 /// A scene with its start.
 pub(crate) enum Judged {
@@ -77,9 +77,9 @@ type Known = Option<(Tolerance, Arc<Judged>)>;
 #[pyclass(frozen, module = "pfaff._pfaff")]
 pub(crate) struct Scene {
     #[pyo3(get)]
-    name: String,
+    pub(crate) name: String,
     #[pyo3(get)]
-    text: String,
+    pub(crate) text: String,
     known: Mutex<Known>,
 }
 
@@ -93,11 +93,11 @@ impl Scene {
     }
 
     /// An error with its places in the text.
-    fn fault(&self, error: StudyError) -> Fault {
+    pub(crate) fn fault(&self, error: StudyError) -> Fault {
         Refusal::of((&self.name, &self.text), error).into()
     }
 
-    fn assembled(&self, tolerance: Tolerance) -> Result<AssembledScene, Fault> {
+    pub(crate) fn assembled(&self, tolerance: Tolerance) -> Result<AssembledScene, Fault> {
         AssembledScene::read(&self.name, &self.text, &REGISTRY)
             .and_then(|assembled| assembled.stating(tolerance))
             .map_err(|e| self.fault(e))

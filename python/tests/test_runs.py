@@ -11,6 +11,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -162,6 +163,75 @@ def test_ctrl_c_ends_a_run_of_several_components() -> None:
     assert time.monotonic() - begun < 5.0
 
 
+LONG: dict[str, Callable[[pfaff.Scene], object]] = {
+    "samples": lambda scene: scene.tolerance(100_000, tolerance=1e-3),
+    "samples by one thread": lambda scene: scene.tolerance(100_000, tolerance=1e-3, threads=1),
+    "work and precision": lambda scene: scene.work_precision(all=True),
+}
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+@pytest.mark.parametrize("call", LONG.values(), ids=LONG.keys())
+def test_ctrl_c_ends_other_long_work(call: Callable[[pfaff.Scene], object]) -> None:
+    robot = pfaff.Scene.from_file(ROOT / "crates" / "robot-trolley" / "robot-trolley.toml")
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        call(robot)
+    assert time.monotonic() - begun < 5.0
+
+
+def test_samples_of_a_beam() -> None:
+    """A beam on a hinge and a roller: the roller carries m·g·a/l, with a and l within tolerances."""
+    beam = (
+        pfaff.Scene("beam", gravity=[0.0, -10.0], tolerance=1e-3)
+        .body("beam", mass=2.0, inertia=1.0, position=[1.0, 0.0])
+        .joint("hinge", "revolute", ["ground", "beam"], at=[0.0, 0.0])
+        .joint("roller", "pin-in-slot", ["ground", "beam"], at=[2.0, 0.0], axis=[1, 0])
+        .add("marker", name="tip", body="beam", point=[1.0, 0.0])
+    )
+    samples = beam.tolerance(200, seed=3)
+    assert len(samples) == 200 and "200" in repr(samples)
+    load = samples["roller.Fy"]
+    # On the ground, so downwards; the hinge may be 2 mm nearer, and so may the slot.
+    assert np.isfinite(load).all() and 0.0 < np.ptp(load) < 10.0 * 4.0 * 2e-3
+    np.testing.assert_allclose(load, -10.0, atol=4e-2)
+    np.testing.assert_allclose(load + samples["hinge.Fy"], -20.0, rtol=1e-9)
+    assert np.hypot(samples["tip.x"] - 2.0, samples["tip.y"]).max() < 5e-3
+    assert set(samples["status"]) == {"done"} and samples["sample"].tolist() == list(range(1, 201))
+    range_ = samples.reactions["roller"]["values"][0]["range"]
+    assert range_["described"] == pytest.approx(10.0) and range_["samples"] == 200
+    again = beam.tolerance(200, seed=3, threads=1)
+    np.testing.assert_array_equal(again["roller.Fy"], load)
+    assert (beam.tolerance(200, seed=4)["roller.Fy"] != load).all()
+    with pytest.raises(pfaff.InputError, match="did you mean `roller.Fy`"):
+        _ = samples["roler.Fy"]
+    with pytest.raises(ValueError, match="read-only"):
+        load[0] = 1.0
+    varied = beam.tolerance(200, vary={"body.beam.mass": 0.5})
+    mass = 2.0 + 0.5 * varied["varied.body.beam.mass"]
+    np.testing.assert_allclose(varied["roller.Fy"] + varied["hinge.Fy"], -10.0 * mass, rtol=1e-9)
+    frame, table = samples.to_polars(), samples.to_pandas()
+    assert frame.columns == samples.columns and list(table.columns) == samples.columns[1:]
+    np.testing.assert_array_equal(table["roller.Fy"], load)
+
+
+def test_error_against_run_time() -> None:
+    found = pfaff.Scene.from_string(PENDULUM).work_precision(quick=True)
+    assert found.automatic in found.methods and len(found.methods) >= 4
+    assert found.document["provenance"]["command"] == "called from Python" and found.summary
+    for method in found.methods:
+        curve = found.curve(method)
+        np.testing.assert_array_equal(curve.tolerance, [1e-4, 1e-7, 1e-10])
+        assert (curve.seconds > 0.0).all() and (np.diff(curve.error) < 0.0).all()
+        assert (np.diff(curve.evaluations) > 0.0).all() and curve.error[-1] < 1e-7
+    assert 0.0 <= found.reference_limit < 1e-9
+    for stabilisation in set(found.table["stabilisation"]):
+        assert len(found.curve("dop853", stabilisation).error) == 3
+    with pytest.raises(pfaff.InputError, match="did you mean `radau5`"):
+        found.curve("radau")
+
+
 def test_other_threads_go_on() -> None:
     """Two runs and a counter at once: the interpreter is free while a run goes."""
     scene = pfaff.Scene.from_string(PENDULUM)
@@ -203,17 +273,10 @@ def test_a_run_that_stops_keeps_its_rows() -> None:
 
 def test_tables() -> None:
     run = pfaff.Scene.from_file(ROOT / "examples" / "slider-crank.toml").simulate()
-    try:
-        table = run.to_pandas()
-    except ImportError:
-        pass
-    else:
-        assert list(table.columns) == run.columns + run.reaction_columns
-        np.testing.assert_array_equal(table.index, run.t)
-    try:
-        frame = run.to_polars()
-    except ImportError:
-        return
+    table = run.to_pandas()
+    assert list(table.columns) == run.columns + run.reaction_columns
+    np.testing.assert_array_equal(table.index, run.t)
+    frame = run.to_polars()
     assert frame.columns == ["t", *run.columns, *run.reaction_columns]
     assert frame.shape[0] == len(run)
 
@@ -280,11 +343,18 @@ def test_a_run_in_a_child_process() -> None:
 
 
 def test_plots() -> None:
-    matplotlib = pytest.importorskip("matplotlib")
-    matplotlib.use("Agg")
+    import matplotlib
+    from matplotlib import pyplot
+
+    matplotlib.use("agg")
     run = pfaff.Scene.from_string(PENDULUM).simulate()
     axes = run.plot()
     assert [line.get_label() for line in axes.lines] == ["bob.x", "bob.y"]
     axes = run.plot("pivot.Fx")
     np.testing.assert_array_equal(axes.lines[0].get_ydata(), run.reaction("pivot").force[:, 0])
-    matplotlib.pyplot.close("all")
+    samples = pfaff.Scene.from_string(PENDULUM).tolerance(50, tolerance=1e-3)
+    axes = samples.plot("pivot.Fy", bins=10)
+    assert sum(bar.get_height() for bar in axes.patches) == 50
+    axes = pfaff.Scene.from_string(PENDULUM).work_precision(quick=True).plot("dop853", "radau5")
+    assert [line.get_label() for line in axes.lines] == ["dop853", "radau5"]
+    pyplot.close("all")

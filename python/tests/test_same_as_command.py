@@ -227,3 +227,79 @@ def test_imports(command: Command, tmp_path: Path) -> None:
         pfaff.Scene.from_mjcf(path)
     expected = command.run("import", path, "--out", tmp_path / "out.toml", "--force")
     assert str(raised.value) == expected.stderr.rstrip()
+
+
+TOLERANCES: list[tuple[str, dict[str, Any], list[str]]] = [
+    ("car", {"tolerance": 1e-3}, ["--tolerance", "1e-3"]),
+    ("four-bar", {"tolerance": 1e-4, "angle_tolerance": 1e-3, "seed": 7}, ["--tolerance", "1e-4", "--angle-tolerance", "1e-3", "--seed", "7"]),
+    ("table", {"tolerance": 1e-3}, ["--tolerance", "1e-3"]),
+    ("slider-crank", {"tolerance": 1e-4, "t": 0.02, "threads": 1}, ["--tolerance", "1e-4", "--at-time", "0.02"]),
+    ("sleigh", {"vary": {"body.sleigh.mass": "±2%", "body.sleigh.inertia": 0.125}}, ["--vary", "body.sleigh.mass=±2%", "--vary", "body.sleigh.inertia=±0.125"]),
+]
+
+
+@pytest.mark.parametrize(("name", "options", "words"), TOLERANCES, ids=[name for name, *_ in TOLERANCES])
+def test_samples(name: str, options: dict[str, Any], words: list[str], command: Command, tmp_path: Path) -> None:
+    path = ROOT / "examples" / f"{name}.toml"
+    expected = command.document("tolerance", path, "--runs", "40", "--out", tmp_path, *words)
+    samples = pfaff.Scene.from_file(path).tolerance(40, **options)
+    assert samples.document == expected
+    with (tmp_path / "tolerance.csv").open(encoding="utf-8", newline="") as file:
+        header, *rows = csv.reader(file)
+    assert samples.columns == header and len(samples) == len(rows) == 40
+    for column, cells in zip(header, zip(*rows, strict=True), strict=True):
+        values = samples[column]
+        if values.dtype.kind == "U":
+            assert values.tolist() == list(cells), column
+        else:
+            np.testing.assert_array_equal(values, [float(cell) for cell in cells], column)
+
+
+def test_work_precision(command: Command, tmp_path: Path) -> None:
+    path = ROOT / "examples" / "sleigh.toml"
+    expected = command.document("work-precision", path, "--quick", "--out", tmp_path)
+    found = pfaff.Scene.from_file(path).work_precision(quick=True)
+    (own,), (other,) = found.document["scenes"], expected["scenes"]
+    assert found.document.keys() == expected.keys() and own.keys() == other.keys()
+    for key in ("name", "title", "reference", "automatic"):
+        assert own[key] == other[key], key
+    # Run times differ, and with them what is told of them.
+    measured = ("seconds", "repetitions")
+    for rows in (own["rows"], other["rows"]):
+        for row in rows:
+            assert row["status"] == "done" and row["seconds"] > 0.0
+            for key in measured:
+                del row[key]
+    assert own["rows"] == other["rows"]
+    with (tmp_path / "work_precision.csv").open(encoding="utf-8", newline="") as file:
+        header, *lines = csv.reader(file)
+    assert set(found.table) == set(header) and len(lines) == len(own["rows"])
+    for column, cells in zip(header, zip(*lines, strict=True), strict=True):
+        values = found.table[column]
+        if values.dtype.kind == "U":
+            assert values.tolist() == list(cells), column
+        elif column not in measured:
+            np.testing.assert_array_equal(values, [float(cell) for cell in cells], column)
+
+
+def test_other_refusals_of_samples(command: Command, scene_file: Callable[[str], Path]) -> None:
+    path = scene_file(PENDULUM)
+    scene = pfaff.Scene.from_file(path)
+    known = ["--tolerance", "1e-3"]
+    for options, words in (
+        ({}, []),
+        ({"runs": 0, "tolerance": 1e-3}, ["--runs", "0", *known]),
+        ({"vary": {"body.bob.mass": "±200%"}}, ["--vary", "body.bob.mass=±200%"]),
+        ({"vary": {"body.bop.mass": "±2%"}}, ["--vary", "body.bop.mass=±2%"]),
+    ):
+        with pytest.raises(pfaff.Error) as raised:
+            scene.tolerance(**options)
+        assert str(raised.value) == command.run("tolerance", path, *words).stderr.rstrip()
+        assert raised.value.document == command.document("tolerance", path, *words)
+    still = scene_file(PENDULUM.replace("simulate = { t_end = 1.0 }", ""))
+    with pytest.raises(pfaff.Error) as raised:
+        pfaff.Scene.from_file(still).work_precision()
+    out = still.with_name("out")
+    # The command adds its own options that state the end.
+    refused = command.run("work-precision", still, "--out", out).stderr
+    assert refused.startswith(str(raised.value)) and "--t-end" in refused

@@ -15,10 +15,12 @@ the command ``pfaff``, in SI units and radians. See ``docs/book/python.md``.
 """
 
 from ._analysis import Analysis, ComponentVerdict, GroupVerdict, Verdict
+from ._comparison import Curve, WorkPrecision
 from ._errors import ComputationError, Error, InputError, InternalError, Place, SceneError
 from ._linearisation import Linearisation
 from ._pfaff import __version__
 from ._run import BodyMotion, Event, Reaction, Run
+from ._samples import Samples
 from ._scene import Matrices, Scene
 
 __all__ = [
@@ -26,6 +28,7 @@ __all__ = [
     "BodyMotion",
     "ComponentVerdict",
     "ComputationError",
+    "Curve",
     "Error",
     "Event",
     "GroupVerdict",
@@ -36,8 +39,10 @@ __all__ = [
     "Place",
     "Reaction",
     "Run",
+    "Samples",
     "Scene",
     "SceneError",
     "Verdict",
+    "WorkPrecision",
     "__version__",
 ]

@@ -8,7 +8,7 @@ from _typeshed import Incomplete, SupportsGetItem
 from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-__all__ = ["__version__", "Analysis", "Run", "Scene", "_panics", "input_code", "nearest"]
+__all__ = ["__version__", "Analysis", "Run", "Scene", "_panics", "input_code", "nearest", "tolerance", "work_precision"]
 
 __version__: Final[str]
 """
@@ -161,4 +161,16 @@ def input_code() -> str:
 def nearest(name: str, known: SupportsGetItem[int, str]) -> str | None:
     """
     The known name that is most similar to a name, if one is.
+    """
+
+def tolerance(scene: Scene, options: Incomplete) -> tuple[str, list[tuple[str, list[str] | Incomplete]]]:
+    """
+    Makes samples of the data within their tolerances. Returns the document of
+    `pfaff tolerance --json`, and the columns of `tolerance.csv`.
+    """
+
+def work_precision(scene: Scene, quick: bool, all: bool) -> str:
+    """
+    Makes the runs of `pfaff work-precision`, and returns its document. `quick` are three
+    tolerances, `all` every method with every stabilisation.
     """

@@ -13,9 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 from . import _pfaff
 from . import _toml as toml
 from ._analysis import Analysis
+from ._comparison import WorkPrecision
 from ._errors import wrong
 from ._linearisation import Linearisation
 from ._run import Event, Run
+from ._samples import Samples
 
 Array = NDArray[np.float64]
 Choice = Sequence[int] | str
@@ -335,6 +337,47 @@ class Scene:
     ) -> Linearisation:
         """Small motions about a state at rest or a steady one, as ``pfaff linearise``."""
         return Linearisation(self._of.linearise(t, list(coordinates), list(follow)))
+
+    def tolerance(
+        self,
+        runs: int = 1000,
+        *,
+        seed: int = 1,
+        t: float = 0.0,
+        vary: Mapping[str, str | float] | None = None,
+        tolerance: float | None = None,
+        angle_tolerance: float | None = None,
+        threads: int | None = None,
+    ) -> Samples:
+        """Samples of the data within their tolerances, as ``pfaff tolerance``.
+
+        Each point, direction and number of joints is somewhere within its tolerance: those of the
+        scene, or ``tolerance`` (m) and ``angle_tolerance`` (rad). Each of ``runs`` such mechanisms
+        is assembled and analysed at a time ``t`` of the motion (s). ``vary`` are numbers that vary
+        besides, by their keys: ``{"body.crank.mass": "±2%"}``, or a number that is the largest
+        change. The same ``seed`` gives the same samples, whatever the ``threads``.
+        """
+        by = {key: of if isinstance(of, str) else f"±{float(of)!r}" for key, of in (vary or {}).items()}
+        options = {
+            "runs": runs,
+            "seed": seed,
+            "t": t,
+            "vary": list(by.items()),
+            "tolerance": tolerance,
+            "angle_tolerance": angle_tolerance,
+            "threads": threads,
+        }
+        return Samples(self, *_pfaff.tolerance(self._of, options))
+
+    def work_precision(self, *, quick: bool = False, all: bool = False) -> WorkPrecision:
+        """Runs by every method at many tolerances, as ``pfaff work-precision``.
+
+        ``quick`` are three tolerances in place of eleven, ``all`` every method with every
+        treatment of drift. Each run is timed several times, one after the other.
+        """
+        if quick and all:
+            raise wrong("either `quick` or `all`, not both")
+        return WorkPrecision(_pfaff.work_precision(self._of, quick, all))
 
     def _repr_html_(self) -> str:
         return self.analyze()._repr_html_()

@@ -1,0 +1,85 @@
+"""Data within their tolerances: samples, and what they say together."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._run import _unknown
+
+if TYPE_CHECKING:
+    from ._scene import Scene
+
+Values = NDArray[Any]
+
+
+class Samples:
+    """Samples of a scene whose data vary within their tolerances."""
+
+    def __init__(self, scene: Scene, document: str, columns: list[tuple[str, Any]]) -> None:
+        self.scene = scene
+        """The scene."""
+        self.document: dict[str, Any] = json.loads(document)
+        """The document of ``pfaff tolerance --json``."""
+        self.table: dict[str, Values] = {}
+        """The columns of ``tolerance.csv``: numbers, or words for ``status`` and verdicts.
+
+        What does not exist in a sample is NaN.
+        """
+        for name, values in columns:
+            self.table.setdefault(name, np.asarray(values))
+        self.table["sample"] = self.table["sample"].astype(np.int64)
+        for array in self.table.values():
+            array.flags.writeable = False
+
+    @property
+    def columns(self) -> list[str]:
+        """Names of the columns."""
+        return list(self.table)
+
+    @property
+    def reactions(self) -> Mapping[str, dict[str, Any]]:
+        """Ranges and verdicts of joints and drives by name, the largest relative range first."""
+        return {r["name"]: r for r in self.document["reactions"]}
+
+    def __getitem__(self, column: str) -> Values:
+        """The values of a column, one for each sample."""
+        if column not in self.table:
+            raise _unknown("column", column, self.table)
+        return self.table[column]
+
+    def to_pandas(self) -> Any:
+        """The table as a ``pandas.DataFrame`` with the numbers of the samples as its index."""
+        import pandas
+
+        return pandas.DataFrame(self.table).set_index("sample")
+
+    def to_polars(self) -> Any:
+        """The table as a ``polars.DataFrame``."""
+        import polars
+
+        return polars.DataFrame(self.table)
+
+    def plot(self, *columns: str, bins: int = 24, ax: Any = None) -> Any:
+        """Draws histograms of columns; returns the axes. Needs matplotlib."""
+        values = [(column, self[column].astype(np.float64)) for column in columns]
+        if ax is None:
+            from matplotlib import pyplot
+
+            _, ax = pyplot.subplots()
+        for column, numbers in values:
+            ax.hist(numbers[np.isfinite(numbers)], bins=bins, alpha=0.6, label=column)
+        ax.set_ylabel("samples")
+        ax.legend()
+        return ax
+
+    def __len__(self) -> int:
+        return len(self.table["sample"])
+
+    def __repr__(self) -> str:
+        assembled = self.document["assembled"]
+        return f"<pfaff.Samples: {len(self)}, of which {assembled} could be assembled>"

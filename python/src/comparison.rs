@@ -1,0 +1,51 @@
+//! A scene by every method at many tolerances: error against run time.
+
+use pfaff::model::Tolerance;
+use pfaff::refusal::json;
+use pfaff::report::{Provenance, WorkPrecisionDocument};
+use pfaff::work_precision::{Plan, Subject, overview, provenance};
+use pfaff::{Overrides, StudyError};
+use pyo3::prelude::*;
+
+use crate::fault::guarded;
+use crate::hearing::heard;
+use crate::scene::Scene;
+
+/// Makes the runs of `pfaff work-precision`, and returns its document. `quick` are three
+/// tolerances, `all` every method with every stabilisation.
+#[pyfunction]
+#[pyo3(signature = (scene, quick, all))]
+pub(crate) fn work_precision(
+    py: Python<'_>,
+    scene: &Scene,
+    quick: bool,
+    all: bool,
+) -> PyResult<String> {
+    guarded(py, || {
+        let fault = |e: StudyError| scene.fault(e);
+        let study = scene.assembled(Tolerance::default())?;
+        let study = study.prepare(&Overrides::default()).map_err(fault)?;
+        let subject = Subject::of_study(study).map_err(fault)?;
+        let plan = match (quick, all) {
+            (true, _) => Plan::quick(),
+            (false, true) => Plan::everything(),
+            (false, false) => Plan::standard(),
+        };
+        let compared = heard(|ends| {
+            let row = |_: &_| Ok::<(), StudyError>(());
+            subject.compare(&plan, &[], &ends, row).map_err(fault)
+        })?;
+        let document = WorkPrecisionDocument {
+            provenance: Provenance {
+                machine: provenance::machine(),
+                versions: format!("pfaff {}", env!("CARGO_PKG_VERSION")),
+                date: provenance::date(),
+                command: "called from Python".to_owned(),
+            },
+            partial: compared.interrupted,
+            summary: overview(std::slice::from_ref(&compared.scene)),
+            scenes: vec![compared.scene],
+        };
+        Ok(json(&document)?)
+    })
+}
