@@ -94,9 +94,10 @@ fn table(study: &ToleranceStudy<'_>, found: &ToleranceResult) -> Vec<(String, Co
     };
     let mut columns: Vec<(String, Column)> = (study.columns().into_iter())
         .map(|name| {
-            let empty = match is_words(&name) {
-                true => Column::Words(Vec::new()),
-                false => Column::Numbers(Vec::new()),
+            let empty = if is_words(&name) {
+                Column::Words(Vec::new())
+            } else {
+                Column::Numbers(Vec::new())
             };
             (name, empty)
         })

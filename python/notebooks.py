@@ -1,0 +1,193 @@
+"""Runs notebooks and compares what they show with what is stored in them, or stores it.
+
+`python python/notebooks.py [NOTEBOOK …]` with the interpreter of the environment, for all of
+`python/notebooks` if none is named; `--write` stores the outputs. Cells are run as Jupyter runs
+them, one after the other in one namespace, with the last expression and the figures shown; there is
+no kernel between, which would be thirty packages more to install. Words have to be the same;
+pictures the same up to a few pixels, unless their cell is tagged `varies-by-machine`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import base64
+import contextlib
+import difflib
+import io
+import json
+import os
+import sys
+import warnings
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib import pyplot
+
+FOLDER = Path(__file__).resolve().parent / "notebooks"
+
+VARIES = "varies-by-machine"
+"""The tag of cells whose pictures show run times, or errors as small as rounding."""
+
+COLOURS = 64
+"""Colours of a stored picture: enough for lines on white, and a third of the bytes."""
+
+DPI = 72
+
+DIFFERS = 0.15
+"""A pixel differs if a colour does by more than this share of its range: more than by rounding."""
+
+PIXELS = 1e-3
+"""Share of the pixels of a picture that may differ; a line that moves changes more."""
+
+
+def shown(value: Any) -> dict[str, Any]:
+    """The forms in which a value is shown."""
+    data = {"text/plain": lines(repr(value))}
+    html = getattr(value, "_repr_html_", None)
+    if html is not None:
+        data = {"text/html": lines(html()), **data}
+    return data
+
+
+def lines(text: str) -> list[str]:
+    """A text as notebooks store it."""
+    return text.splitlines(keepends=True)
+
+
+def picture(figure: Any) -> str:
+    """A figure as PNG of few colours."""
+    from PIL import Image
+
+    drawn = io.BytesIO()
+    figure.savefig(drawn, format="png", dpi=DPI, bbox_inches="tight")
+    small = io.BytesIO()
+    with Image.open(drawn) as image:
+        image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE).save(small, "PNG", optimize=True)
+    return base64.b64encode(small.getvalue()).decode("ascii")
+
+
+def run_cell(source: str, name: str, names: dict[str, Any], count: int) -> list[dict[str, Any]]:
+    """Runs a cell; returns its outputs in the form of notebooks."""
+    tree = ast.parse(source, name)
+    last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
+    printed = io.StringIO()
+    value = None
+    with contextlib.redirect_stdout(printed):
+        exec(compile(tree, name, "exec"), names)
+        if isinstance(last, ast.Expr):
+            value = eval(compile(ast.Expression(last.value), name, "eval"), names)
+    outputs: list[dict[str, Any]] = []
+    if printed.getvalue():
+        text = lines(printed.getvalue())
+        outputs.append({"name": "stdout", "output_type": "stream", "text": text})
+    if value is not None and not source.rstrip().endswith(";"):
+        outputs.append({
+            "data": shown(value),
+            "execution_count": count,
+            "metadata": {},
+            "output_type": "execute_result",
+        })
+    for number in pyplot.get_fignums():
+        figure = pyplot.figure(number)
+        data = {"image/png": picture(figure), "text/plain": [repr(figure)]}
+        outputs.append({"data": data, "metadata": {}, "output_type": "display_data"})
+    pyplot.close("all")
+    return outputs
+
+
+def run(notebook: dict[str, Any], path: Path) -> None:
+    """Runs all cells and puts their outputs in the place of those that are stored."""
+    names: dict[str, Any] = {"__name__": "__main__"}
+    count = 0
+    for cell in notebook["cells"]:
+        if cell["cell_type"] != "code":
+            continue
+        count += 1
+        name = f"{path.name}, cell {count}"
+        cell["execution_count"] = count
+        cell["outputs"] = run_cell("".join(cell["source"]), name, names, count)
+
+
+def pixels(text: str) -> Any:
+    """A picture as an array of colours from 0 to 1."""
+    from PIL import Image
+
+    with Image.open(io.BytesIO(base64.b64decode(text))) as image:
+        return np.asarray(image.convert("RGB"), dtype=np.float64) / 255.0
+
+
+def without_picture(output: dict[str, Any]) -> dict[str, Any]:
+    """An output with the picture left out."""
+    data = output.get("data", {})
+    return {**output, "data": {kind: x for kind, x in data.items() if kind != "image/png"}}
+
+
+def same_pictures(old: str, new: str) -> bool:
+    """Whether two pictures show the same."""
+    before, now = pixels(old), pixels(new)
+    if before.shape != now.shape:
+        return False
+    differs = np.abs(before - now).max(axis=2) > DIFFERS
+    return float(differs.mean()) <= PIXELS
+
+
+def differences(old: dict[str, Any], new: dict[str, Any]) -> list[str]:
+    """What is shown otherwise than it is stored, cell by cell."""
+    found = []
+    for count, (before, now) in enumerate(zip(old["cells"], new["cells"], strict=True), 1):
+        if before["cell_type"] != "code":
+            continue
+        texts = [
+            json.dumps([without_picture(output) for output in cell["outputs"]], indent=1, ensure_ascii=False)
+            for cell in (before, now)
+        ]
+        if texts[0] != texts[1]:
+            diff = difflib.unified_diff(*(text.splitlines() for text in texts), "stored", "now", lineterm="", n=1)
+            found.append(f"cell {count} shows otherwise than it is stored:\n" + "\n".join(diff))
+            continue
+        if VARIES in now["metadata"].get("tags", []):
+            continue
+        for was, is_ in zip(before["outputs"], now["outputs"], strict=True):
+            picture_was, picture_is = (output.get("data", {}).get("image/png") for output in (was, is_))
+            if picture_was and picture_is and not same_pictures(picture_was, picture_is):
+                found.append(f"the picture of cell {count} is not the one that is stored")
+    return found
+
+
+def written(notebook: dict[str, Any]) -> str:
+    """The text of a notebook."""
+    return json.dumps(notebook, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
+
+
+def main() -> None:
+    """The command line."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("notebooks", nargs="*", type=Path)
+    parser.add_argument("--write", action="store_true", help="store the outputs")
+    arguments = parser.parse_args()
+    matplotlib.use("agg")
+    warnings.simplefilter("error")
+    failed = False
+    for path in arguments.notebooks or sorted(FOLDER.glob("*.ipynb")):
+        path = path.resolve()
+        # Jupyter runs a notebook in its folder.
+        os.chdir(path.parent)
+        stored = json.loads(path.read_text(encoding="utf-8"))
+        notebook = json.loads(json.dumps(stored))
+        matplotlib.rcdefaults()
+        run(notebook, path)
+        if arguments.write:
+            path.write_text(written(notebook), encoding="utf-8", newline="\n")
+            continue
+        found = differences(stored, notebook)
+        failed = failed or bool(found)
+        print(f"{path.name}: {'; '.join(found) or 'shows what is stored'}")
+    if failed:
+        sys.exit("`python python/notebooks.py --write` stores what they show now")
+
+
+if __name__ == "__main__":
+    main()
