@@ -69,33 +69,45 @@ def picture(figure: Any) -> str:
     return base64.b64encode(small.getvalue()).decode("ascii")
 
 
-def run_cell(source: str, name: str, names: dict[str, Any], count: int) -> list[dict[str, Any]]:
-    """Runs a cell; returns its outputs in the form of notebooks."""
-    tree = ast.parse(source, name)
-    last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
-    printed = io.StringIO()
-    value = None
-    with contextlib.redirect_stdout(printed):
-        exec(compile(tree, name, "exec"), names)
-        if isinstance(last, ast.Expr):
-            value = eval(compile(ast.Expression(last.value), name, "eval"), names)
-    outputs: list[dict[str, Any]] = []
-    if printed.getvalue():
-        text = lines(printed.getvalue())
-        outputs.append({"name": "stdout", "output_type": "stream", "text": text})
-    if value is not None and not source.rstrip().endswith(";"):
-        outputs.append({
-            "data": shown(value),
-            "execution_count": count,
-            "metadata": {},
-            "output_type": "execute_result",
-        })
-    for number in pyplot.get_fignums():
-        figure = pyplot.figure(number)
-        data = {"image/png": picture(figure), "text/plain": [repr(figure)]}
-        outputs.append({"data": data, "metadata": {}, "output_type": "display_data"})
-    pyplot.close("all")
-    return outputs
+class Cell:
+    """A cell that is run, and its outputs in the form of notebooks, in their order."""
+
+    def __init__(self) -> None:
+        self.outputs: list[dict[str, Any]] = []
+        self._printed = io.StringIO()
+
+    def show(self, *_: object, **__: object) -> None:
+        """What `pyplot.show` does here, and the end of each cell: words so far, then all figures."""
+        self._words()
+        for number in pyplot.get_fignums():
+            figure = pyplot.figure(number)
+            data = {"image/png": picture(figure), "text/plain": [repr(figure)]}
+            self.outputs.append({"data": data, "metadata": {}, "output_type": "display_data"})
+        pyplot.close("all")
+
+    def _words(self) -> None:
+        text = self._printed.getvalue()
+        if text:
+            self.outputs.append({"name": "stdout", "output_type": "stream", "text": lines(text)})
+            self._printed.seek(0)
+            self._printed.truncate()
+
+    def run(self, source: str, name: str, names: dict[str, Any], count: int) -> None:
+        """Runs the cell, and shows its last expression."""
+        tree = ast.parse(source, name)
+        last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
+        pyplot.show = self.show
+        value = None
+        with contextlib.redirect_stdout(self._printed):
+            exec(compile(tree, name, "exec"), names)
+            if isinstance(last, ast.Expr):
+                value = eval(compile(ast.Expression(last.value), name, "eval"), names)
+        result = {"execution_count": count, "metadata": {}, "output_type": "execute_result"}
+        if value is not None and not source.rstrip().endswith(";"):
+            # Jupyter shows figures that are still open after the value.
+            self._words()
+            self.outputs.append({"data": shown(value), **result})
+        self.show()
 
 
 def run(notebook: dict[str, Any], path: Path) -> None:
@@ -108,7 +120,9 @@ def run(notebook: dict[str, Any], path: Path) -> None:
         count += 1
         name = f"{path.name}, cell {count}"
         cell["execution_count"] = count
-        cell["outputs"] = run_cell("".join(cell["source"]), name, names, count)
+        made = Cell()
+        made.run("".join(cell["source"]), name, names, count)
+        cell["outputs"] = made.outputs
 
 
 def pixels(text: str) -> Any:
@@ -145,14 +159,15 @@ def differences(old: dict[str, Any], new: dict[str, Any]) -> list[str]:
             for cell in (before, now)
         ]
         if texts[0] != texts[1]:
-            diff = difflib.unified_diff(*(text.splitlines() for text in texts), "stored", "now", lineterm="", n=1)
+            was, is_ = (text.splitlines() for text in texts)
+            diff = difflib.unified_diff(was, is_, "stored", "now", lineterm="", n=1)
             found.append(f"cell {count} shows otherwise than it is stored:\n" + "\n".join(diff))
             continue
         if VARIES in now["metadata"].get("tags", []):
             continue
-        for was, is_ in zip(before["outputs"], now["outputs"], strict=True):
-            picture_was, picture_is = (output.get("data", {}).get("image/png") for output in (was, is_))
-            if picture_was and picture_is and not same_pictures(picture_was, picture_is):
+        for pair in zip(before["outputs"], now["outputs"], strict=True):
+            pictures = [output.get("data", {}).get("image/png", "") for output in pair]
+            if pictures != ["", ""] and not same_pictures(*pictures):
                 found.append(f"the picture of cell {count} is not the one that is stored")
     return found
 
