@@ -37,6 +37,12 @@ mod models_of_robots {}
 mod data_within_tolerances {}
 #[doc = include_str!("../docs/book/python.md")]
 mod python {}
+#[doc = include_str!("../docs/book/python-verdict.md")]
+mod python_verdict {}
+#[doc = include_str!("../docs/book/python-tolerances.md")]
+mod python_tolerances {}
+#[doc = include_str!("../docs/book/python-work-precision.md")]
+mod python_work_precision {}
 #[doc = include_str!("../docs/book/accuracy.md")]
 mod accuracy {}
 #[doc = include_str!("../docs/book/speed.md")]

@@ -6,6 +6,7 @@ import pickle
 import subprocess
 import sys
 import threading
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -273,14 +274,19 @@ def test_the_example_of_the_package() -> None:
     assert tried > 0 and failed == 0
 
 
-def test_the_page_of_the_book(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The blocks of the page run one after the other; README has a scene and its own lines."""
+PAGES = {page.stem: [page] for page in sorted((ROOT / "docs" / "book").glob("python*.md"))}
+# The scene of the README is the one that the first page writes.
+PAGES["README"] = [*PAGES["python"], ROOT / "README.md"]
+
+
+@pytest.mark.parametrize("pages", PAGES.values(), ids=PAGES.keys())
+def test_pages_of_the_book(pages: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The blocks of a page run one after the other."""
     monkeypatch.chdir(tmp_path)
-    page = (ROOT / "docs" / "book" / "python.md").read_text(encoding="utf-8")
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    for text in (page, readme):
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
         blocks = [piece.split("```")[0] for piece in text.split("```python\n")[1:]]
         assert blocks
         names: dict[str, Any] = {}
         for block in blocks:
-            exec(compile(block, "block", "exec"), names)
+            exec(compile(block, page.name, "exec"), names)
