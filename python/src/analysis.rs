@@ -15,6 +15,7 @@ use pyo3::prelude::*;
 use serde::Serialize;
 
 use crate::fault::{Fault, guarded, wrong};
+use crate::hearing::heard;
 use crate::options::{About, Allow, Choose};
 use crate::scene::Judged;
 
@@ -138,7 +139,9 @@ impl Analysis {
             {
                 return Err(wrong(format!("t_end is {t_end}, need a time > 0")));
             }
-            let along = self.of.study()?.verdicts_along_motion(t_end, |_| {})?;
+            let study = self.of.study()?;
+            let along =
+                heard(|ends| Ok(study.verdicts_along_motion_until(t_end, ends, |_| {})?))?;
             plain(&along.document())
         })
     }

@@ -21,7 +21,7 @@ use pyo3::prelude::*;
 
 use crate::analysis::{Analysis, plain};
 use crate::fault::{Fault, guarded, wrong};
-use crate::hearing::Hearing;
+use crate::hearing::{Hearing, heard};
 use crate::options::{RunOptions, rows_from_zero, tolerance, unknown};
 use crate::run::{Column, Recorded, Run, by_rows};
 
@@ -388,8 +388,11 @@ impl Scene {
                 Judged::Stands { kept, .. } if t == 0.0 => kept.clone(),
                 judged => {
                     let study = judged.study()?;
-                    let found = study.analyse(t, drop.as_deref());
-                    found.map_err(|e| self.fault(e))?.kept()
+                    let analysed = |ends: &(dyn Fn() -> bool + Sync)| {
+                        let found = study.analyse_until(t, drop.as_deref(), ends);
+                        Ok(found.map_err(|e| self.fault(e))?.kept())
+                    };
+                    heard(analysed)?
                 }
             };
             Ok(Analysis::new(judged, kept))
@@ -420,11 +423,14 @@ impl Scene {
     }
 
     /// Runs the scene and writes the files of the command into a directory; returns the summary.
+    /// With `until` the run ends at the row of this time (s), as one that was asked to end there.
+    #[pyo3(signature = (directory, options, until))]
     fn simulate_into(
         &self,
         py: Python<'_>,
         directory: PathBuf,
         options: RunOptions,
+        until: Option<f64>,
     ) -> PyResult<String> {
         guarded(py, || {
             let hearing = Hearing::new();
@@ -441,7 +447,11 @@ impl Scene {
                 ..Origin::default()
             };
             let stop = || hearing.ends();
-            let outcome = study.simulate_as(&origin, &place, &stop, |_| ControlFlow::Continue(()));
+            let go_on = |t: f64| match until {
+                Some(until) if t >= until => ControlFlow::Break(()),
+                _ => ControlFlow::Continue(()),
+            };
+            let outcome = study.simulate_as(&origin, &place, &stop, go_on);
             if let Some(raised) = hearing.raised() {
                 return Err(raised.into());
             }
@@ -514,7 +524,10 @@ impl Scene {
                 coordinates,
                 follow,
             };
-            let found = study.linearise(t, &options).map_err(|e| self.fault(e))?;
+            let found = heard(|ends| {
+                let found = study.linearise_until(t, &options, ends);
+                found.map_err(|e| self.fault(e))
+            })?;
             let modes = found.modes();
             let name = study.scene.name();
             Ok(json(&LinearisationDocument::new(

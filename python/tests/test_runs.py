@@ -167,6 +167,9 @@ LONG: dict[str, Callable[[pfaff.Scene], object]] = {
     "samples": lambda scene: scene.tolerance(100_000, tolerance=1e-3),
     "samples by one thread": lambda scene: scene.tolerance(100_000, tolerance=1e-3, threads=1),
     "work and precision": lambda scene: scene.work_precision(all=True),
+    "a late time": lambda scene: scene.analyze(1e7),
+    "small motions at a late time": lambda scene: scene.linearise(1e7),
+    "verdicts along a long motion": lambda scene: scene.analyze().along(1e7),
 }
 
 
@@ -174,6 +177,7 @@ LONG: dict[str, Callable[[pfaff.Scene], object]] = {
 @pytest.mark.parametrize("call", LONG.values(), ids=LONG.keys())
 def test_ctrl_c_ends_other_long_work(call: Callable[[pfaff.Scene], object]) -> None:
     robot = pfaff.Scene.from_file(ROOT / "crates" / "robot-trolley" / "robot-trolley.toml")
+    assert len(robot.joints) == 14
     threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
     begun = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
@@ -288,6 +292,19 @@ def test_pages(tmp_path: Path) -> None:
     page = (tmp_path / "run.html").read_text(encoding="utf-8")
     assert page.lower().startswith("<!doctype html>") and "sleigh" in page
     assert "t = 1" in page or "1 s" in page
+    assert "interrupted" not in page
+    # To the same end as the run: ended by a callback, or stopped by itself.
+    scene.simulate(1.0, on_row=lambda t: t >= 0.5).report(tmp_path / "part.html")
+    part = (tmp_path / "part.html").read_text(encoding="utf-8")
+    assert "interrupted" in part and len(part) < len(page)
+    with pytest.raises(pfaff.ComputationError) as raised:
+        scene.simulate(10.0, max_steps=3)
+    assert raised.value.run is not None and raised.value.code is not None
+    raised.value.run.report(tmp_path / "stopped.html")
+    assert "3 steps done" in (tmp_path / "stopped.html").read_text(encoding="utf-8")
+    with pytest.raises(pfaff.ComputationError):
+        scene.report(tmp_path / "own.html", t_end=10.0, max_steps=3)
+    assert (tmp_path / "own.html").exists()
     table = scene.analyze()._repr_html_()
     assert "<td>left</td>" in table and "not unique" in table
 

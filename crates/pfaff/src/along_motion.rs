@@ -3,9 +3,10 @@
 
 use std::ops::ControlFlow;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use dynamics::plan::{Reactions, Rows};
-use dynamics::{MotionError, MotionOptions, Plan, Wanted};
+use dynamics::{MotionError, MotionOptions, Plan, Stop, Wanted};
 use model::start::scene_size;
 use model::{ColumnKind, Mechanism, System};
 use report::documents::AlongDocument;
@@ -110,6 +111,20 @@ impl Study {
     pub fn verdicts_along_motion(
         &self,
         t_end: Option<f64>,
+        progress: impl FnMut(Progress) + Send,
+    ) -> Result<VerdictsAlongMotion, StudyError> {
+        self.verdicts_along_motion_until(t_end, &|| false, progress)
+    }
+
+    /// Like [`Self::verdicts_along_motion`]; `stop` is asked at each evaluation of the motion, and
+    /// before it is analysed.
+    ///
+    /// # Errors
+    /// As there, and [`StudyError::Interrupted`]: `stop` returned true.
+    pub fn verdicts_along_motion_until(
+        &self,
+        t_end: Option<f64>,
+        stop: &Stop<'_>,
         mut progress: impl FnMut(Progress) + Send,
     ) -> Result<VerdictsAlongMotion, StudyError> {
         let own = self.options.as_ref().map(|options| options.t_end);
@@ -123,7 +138,7 @@ impl Study {
         }
         let rows = self.prepared.mechanism.layout().rows().max(1);
         let least = (INTERVALS_OF_ROWS / rows).clamp(INTERVALS_LEAST, INTERVALS);
-        let run = self.record(t_end, least, &mut progress)?;
+        let run = self.record(t_end, least, stop, &mut progress)?;
         if run.stopped.is_some()
             && let Some(along_motion) = self.judge_beyond(&run, least, &mut progress)
         {
@@ -140,7 +155,7 @@ impl Study {
         // Record again if the motion is too fast for these rows, or up to the last state before it
         // stopped. That state may be too close to a singular configuration to be moved onto the
         // constraints; then the last row before it is used.
-        let again = self.record(run.reached, intervals, &mut progress)?;
+        let again = self.record(run.reached, intervals, stop, &mut progress)?;
         let stopped = again.stopped.is_some();
         match self.judge(again, intervals, &mut progress) {
             Err(StudyError::Along(AlongError::OffConstraints { .. }))
@@ -230,6 +245,7 @@ impl Study {
         &self,
         t_end: f64,
         intervals: usize,
+        stop: &Stop<'_>,
         progress: &mut (impl FnMut(Progress) + Send),
     ) -> Result<Record, StudyError> {
         let base = self.options.clone();
@@ -253,7 +269,14 @@ impl Study {
         let mechanism = &self.prepared.mechanism;
         let mut rows: Vec<Row> = Vec::new();
         let plan = Plan::new(&self.prepared, &options, &wanted)?;
-        let outcome = plan.simulate(|sample| {
+        let asked = AtomicBool::new(false);
+        let stop = || {
+            let is_asked = stop();
+            asked.fetch_or(is_asked, Ordering::Relaxed);
+            is_asked
+        };
+        let goes_on = |_| ControlFlow::Continue(());
+        let outcome = plan.simulate_watched(&goes_on, &stop, |sample| {
             progress(Progress::Moving(sample.t));
             let mut qd = vec![0.0; sample.q.len()];
             mechanism.rate(sample.q, sample.v, &mut qd);
@@ -266,6 +289,9 @@ impl Study {
             });
             Ok(ControlFlow::Continue(()))
         });
+        if asked.load(Ordering::Relaxed) {
+            return Err(StudyError::Interrupted);
+        }
         let (reached, stopped) = match outcome {
             Ok(summary) => (summary.t, None),
             Err(failure) if failure.summary.t > 0.0 => (failure.summary.t, Some(failure.error)),

@@ -140,6 +140,19 @@ impl Study {
         self.analyse_with_progress(t, drop, |_| ())
     }
 
+    /// Like [`Self::analyse`]; `stop` is asked at each evaluation of the run that reaches the time.
+    ///
+    /// # Errors
+    /// As [`Study::analyse`], and [`StudyError::Interrupted`]: `stop` returned true.
+    pub fn analyse_until(
+        &self,
+        t: f64,
+        drop: Option<&[usize]>,
+        stop: &Stop<'_>,
+    ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
+        self.analyse_state(t, self.state_until(t, stop)?, drop, |_| ())
+    }
+
     /// Like [`Self::analyse`]; calls `progress` with the number of joints analysed so far.
     ///
     /// # Errors
@@ -150,8 +163,18 @@ impl Study {
         drop: Option<&[usize]>,
         progress: impl Fn(usize) + Sync,
     ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
+        self.analyse_state(t, self.state_at(t)?, drop, progress)
+    }
+
+    /// Analyses the state of the motion at t.
+    fn analyse_state(
+        &self,
+        t: f64,
+        state: State,
+        drop: Option<&[usize]>,
+        progress: impl Fn(usize) + Sync,
+    ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
         let mechanism = &self.prepared.mechanism;
-        let state = self.state_at(t)?;
         // Later configurations are only as accurate as the motion that has reached them.
         let known = match t {
             0.0 => Known::AsStored,
@@ -186,7 +209,21 @@ impl Study {
         t: f64,
         options: &LineariseOptions,
     ) -> Result<Linearisation, StudyError> {
-        let State { q, v } = self.state_at(t)?;
+        self.linearise_until(t, options, &|| false)
+    }
+
+    /// Like [`Self::linearise`]; `stop` is asked at each evaluation of the run that reaches the
+    /// time.
+    ///
+    /// # Errors
+    /// As [`Study::linearise`], and [`StudyError::Interrupted`]: `stop` returned true.
+    pub fn linearise_until(
+        &self,
+        t: f64,
+        options: &LineariseOptions,
+        stop: &Stop<'_>,
+    ) -> Result<Linearisation, StudyError> {
+        let State { q, v } = self.state_until(t, stop)?;
         Ok(linearise(&self.prepared, (t, &q, &v), options)?)
     }
 
@@ -366,6 +403,29 @@ impl Study {
 
     /// The state at a time of the motion; at t = 0 no run is needed.
     pub(crate) fn state_at(&self, t: f64) -> Result<State, StudyError> {
+        self.state_until(t, &|| false)
+    }
+
+    /// The state at a time of the motion; at t = 0 no run is needed. `stop` is asked at each
+    /// evaluation of the run.
+    ///
+    /// ```
+    /// use pfaff::prelude::*;
+    ///
+    /// // A thrown body is back after 1 s: v = 5 − g·t.
+    /// let mut thrown = Description { gravity: [0.0, -10.0], ..Description::new("thrown") };
+    /// thrown.body(Body { velocity: Some([0.0, 5.0]), ..Body::new("stone", 1.0, 1.0) });
+    /// let study = Study::build(thrown)?;
+    /// let state = study.state_until(1.0, &|| false)?;
+    /// assert!(state.q[1].abs() < 1e-9 && (state.v[1] + 5.0).abs() < 1e-9);
+    /// assert!(matches!(study.state_until(1.0, &|| true), Err(StudyError::Interrupted)));
+    /// # Ok::<(), StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`StudyError::Motion`]: the motion does not reach that time.
+    /// - [`StudyError::Interrupted`]: `stop` returned true.
+    pub fn state_until(&self, t: f64, stop: &Stop<'_>) -> Result<State, StudyError> {
         let mut state = State {
             q: self.prepared.q.clone(),
             v: self.prepared.v.clone(),
@@ -373,13 +433,19 @@ impl Study {
         if t == 0.0 {
             return Ok(state);
         }
-        self.run(&self.motion_to(t), |sample| {
+        let mut reached = false;
+        self.run_until(&self.motion_to(t), stop, |sample| {
             state.q.copy_from_slice(sample.q);
             state.v.copy_from_slice(sample.v);
+            reached = sample.t >= t;
             Ok(ControlFlow::Continue(()))
         })
         .map_err(|f| f.error)?;
-        Ok(state)
+        if reached {
+            Ok(state)
+        } else {
+            Err(StudyError::Interrupted)
+        }
     }
 
     /// Options of the run that reaches the state at a later time.

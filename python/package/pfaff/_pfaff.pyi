@@ -137,9 +137,10 @@ class Scene:
         Runs the scene. With `numbers_of_choice` reactions that are not unique have the numbers of
         the rows that the run keeps, otherwise NaN.
         """
-    def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete) -> str:
+    def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete, until: SupportsFloat | SupportsIndex | None) -> str:
         """
         Runs the scene and writes the files of the command into a directory; returns the summary.
+        With `until` the run ends at the row of this time (s), as one that was asked to end there.
         """
     @property
     def text(self, /) -> str: ...

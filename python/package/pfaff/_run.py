@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _pfaff
-from ._errors import wrong
+from ._errors import ComputationError, wrong
 
 if TYPE_CHECKING:
     from ._scene import Scene
@@ -198,8 +198,18 @@ class Run:
         return _named("joint or drive", name, self._reactions)
 
     def report(self, path: str | os.PathLike[str]) -> None:
-        """Writes the page of this run for any browser. The run is made again for it."""
-        self.scene.report(path, **self._options)
+        """Writes the page of this run for any browser.
+
+        The run is made again for it, with rows between these for a moving picture: to the same
+        end, also if it has stopped or a callback has ended it.
+        """
+        stopped = self.document["error"] is not None
+        until = float(self.t[-1]) if self.partial and not stopped else None
+        try:
+            self.scene._page(path, self._options, until)
+        except ComputationError:
+            if not stopped:
+                raise
 
     def to_pandas(self) -> Any:
         """All columns as a ``pandas.DataFrame`` with the times as its index."""

@@ -309,21 +309,39 @@ class Scene:
         if "choose" in options:
             options["drop"] = _drop(options.pop("choose"))
         _known(options)
-        summary = self._of.simulate_into(os.fspath(directory), _options(**options))
+        return self._into(directory, options, None)
+
+    def _into(
+        self, directory: str | os.PathLike[str], options: Mapping[str, Any], until: float | None
+    ) -> dict[str, Any]:
+        summary = self._of.simulate_into(os.fspath(directory), _options(**options), until)
         document: dict[str, Any] = json.loads(summary)
         return document
 
     def report(self, path: str | os.PathLike[str], **options: Any) -> None:
-        """Runs the scene and writes its page for any browser."""
+        """Runs the scene and writes its page for any browser, also of a run that stops."""
+        if "choose" in options:
+            options["drop"] = _drop(options.pop("choose"))
+        _known(options)
+        self._page(path, options, None)
+
+    def _page(
+        self, path: str | os.PathLike[str], options: Mapping[str, Any], until: float | None
+    ) -> None:
         # Imported here, as they take long to import.
         from shutil import move
         from tempfile import TemporaryDirectory
 
         with TemporaryDirectory() as folder:
-            summary = self.simulate_into(folder, **options)
-            if "report.html" not in summary["files"]:
-                raise wrong("the scene wants no report: `output.report` is false")
-            move(os.path.join(folder, "report.html"), path)
+            page = os.path.join(folder, "report.html")
+            try:
+                self._into(folder, options, until)
+                if not os.path.exists(page):
+                    raise wrong("the scene wants no report: `output.report` is false")
+            finally:
+                # A run that stops has a page of what it has computed.
+                if os.path.exists(page):
+                    move(page, path)
 
     def matrices(
         self, q: ArrayLike | None = None, v: ArrayLike | None = None, t: float = 0.0
