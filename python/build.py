@@ -55,7 +55,7 @@ def wheel(profile: str) -> Path:
         shutil.copyfile(HERE.parent / name, HERE / name)
     options = ["--profile", profile, "--out", str(WHEELS)]
     if profile == "release":
-        options.append("--strip")
+        options += ["--strip", "--compression-level", "9"]
     begun = time.monotonic()
     try:
         run(interpreter(), "-m", "maturin", "build", *options)
