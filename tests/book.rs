@@ -43,6 +43,8 @@ mod python_verdict {}
 mod python_tolerances {}
 #[doc = include_str!("../docs/book/python-work-precision.md")]
 mod python_work_precision {}
+#[doc = include_str!("../docs/book/python-sweep.md")]
+mod python_sweep {}
 #[doc = include_str!("../docs/book/accuracy.md")]
 mod accuracy {}
 #[doc = include_str!("../docs/book/speed.md")]
