@@ -45,6 +45,11 @@ impl Hearing {
         self.ends.load(Ordering::Relaxed)
     }
 
+    /// Whether the run has to end, as far as that was heard on another thread.
+    pub(crate) fn has_ended(&self) -> bool {
+        self.ends.load(Ordering::Relaxed)
+    }
+
     /// Calls back; an exception ends the run, and `True` as well.
     pub(crate) fn call(&self, call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>) {
         let asked = Python::attach(|py| call(py)?.bind(py).is_truthy());

@@ -10,6 +10,7 @@
 //! | `options` | words and numbers from Python as options of the library |
 //! | `analysis` | one configuration with its verdicts |
 //! | `run` | the rows of a run as arrays |
+//! | `sweep` | many runs in shards, and their columns |
 
 mod analysis;
 mod fault;
@@ -17,6 +18,7 @@ mod hearing;
 mod options;
 mod run;
 mod scene;
+mod sweep;
 
 /// The private module.
 #[pyo3::pymodule]
@@ -29,6 +31,8 @@ mod _pfaff {
     use super::run::Run;
     #[pymodule_export]
     use super::scene::{Scene, nearest};
+    #[pymodule_export]
+    use super::sweep::{Sweep, merge, sweep_columns};
 
     /// The version of the package.
     #[pymodule_export]

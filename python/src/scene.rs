@@ -25,7 +25,7 @@ use crate::hearing::Hearing;
 use crate::options::{RunOptions, rows_from_zero, tolerance, unknown};
 use crate::run::{Column, Recorded, Run, by_rows};
 
-static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standard);
+pub(crate) static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standard);
 
 /// A scene with its start.
 pub(crate) enum Judged {

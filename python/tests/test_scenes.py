@@ -258,11 +258,11 @@ def test_the_example_of_the_package() -> None:
 
 
 def test_the_page_of_the_book(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The blocks of the page run one after the other; README has a scene and its own lines."""
+    """The blocks of a page run one after the other; README has a scene and its own lines."""
     monkeypatch.chdir(tmp_path)
-    page = (ROOT / "docs" / "book" / "python.md").read_text(encoding="utf-8")
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    for text in (page, readme):
+    book = ROOT / "docs" / "book"
+    for page in (book / "python.md", book / "clusters.md", ROOT / "README.md"):
+        text = page.read_text(encoding="utf-8")
         blocks = [piece.split("```")[0] for piece in text.split("```python\n")[1:]]
         assert blocks
         names: dict[str, Any] = {}

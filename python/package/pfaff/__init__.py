@@ -14,12 +14,14 @@ A scene is a text, as in a file, and does not change: methods return new ones. A
 the command ``pfaff``, in SI units and radians. See ``docs/book/python.md``.
 """
 
+from . import cluster
 from ._analysis import Analysis, ComponentVerdict, GroupVerdict, Verdict
 from ._errors import ComputationError, Error, InputError, InternalError, Place, SceneError
 from ._linearisation import Linearisation
 from ._pfaff import __version__
 from ._run import BodyMotion, Event, Reaction, Run
 from ._scene import Matrices, Scene
+from .cluster import SweepResult
 
 __all__ = [
     "Analysis",
@@ -38,6 +40,8 @@ __all__ = [
     "Run",
     "Scene",
     "SceneError",
+    "SweepResult",
     "Verdict",
     "__version__",
+    "cluster",
 ]

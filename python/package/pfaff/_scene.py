@@ -16,6 +16,7 @@ from ._analysis import Analysis
 from ._errors import wrong
 from ._linearisation import Linearisation
 from ._run import Event, Run
+from .cluster import SweepResult, Vary, sweep
 
 Array = NDArray[np.float64]
 Choice = Sequence[int] | str
@@ -322,6 +323,19 @@ class Scene:
             if "report.html" not in summary["files"]:
                 raise wrong("the scene wants no report: `output.report` is false")
             move(os.path.join(folder, "report.html"), path)
+
+    def sweep(
+        self,
+        vary: Vary,
+        out: str | os.PathLike[str] | None = None,
+        threads: int | None = None,
+        **options: Any,
+    ) -> SweepResult:
+        """Runs the scene with every combination of values, on this machine.
+
+        See :func:`pfaff.cluster.sweep`, which also takes the other options.
+        """
+        return sweep(self, vary, None, out=out, threads=threads, **options)
 
     def matrices(
         self, q: ArrayLike | None = None, v: ArrayLike | None = None, t: float = 0.0
