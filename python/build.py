@@ -46,6 +46,12 @@ def environment(python: str) -> None:
         run(python, "-m", "venv", VENV)
     pip = (interpreter(), "-m", "pip", "--disable-pip-version-check", "install", "--quiet")
     run(*pip, "--requirement", HERE / "requirements.txt")
+    lines = (HERE / "engines.txt").read_text(encoding="utf-8").splitlines()
+    for engine in (line for line in lines if not line.startswith("#")):
+        words = [*map(str, pip), "--only-binary", ":all:", engine]
+        print("+", " ".join(words), flush=True)
+        if subprocess.run(words, cwd=HERE, check=False).returncode != 0:
+            print(f"without {engine}: its tests will be skipped", flush=True)
 
 
 def wheel(profile: str) -> Path:
@@ -53,7 +59,7 @@ def wheel(profile: str) -> Path:
     shutil.rmtree(WHEELS, ignore_errors=True)
     for name in LICENCES:
         shutil.copyfile(HERE.parent / name, HERE / name)
-    options = ["--profile", profile, "--out", str(WHEELS)]
+    options = ["--profile", profile, "--out", str(WHEELS), "--compression-level", "9"]
     if profile == "release":
         options += ["--strip", "--compression-level", "9"]
     begun = time.monotonic()

@@ -37,6 +37,8 @@ mod models_of_robots {}
 mod data_within_tolerances {}
 #[doc = include_str!("../docs/book/python.md")]
 mod python {}
+#[doc = include_str!("../docs/book/clusters.md")]
+mod many_machines {}
 #[doc = include_str!("../docs/book/python-verdict.md")]
 mod python_verdict {}
 #[doc = include_str!("../docs/book/python-tolerances.md")]

@@ -4,7 +4,7 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, PoisonError};
-use std::thread;
+use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant};
 
 use pfaff::refusal::Refusal;
@@ -45,6 +45,8 @@ pub(crate) fn heard<T: Send>(
 
 /// Hears signals and exceptions during one run.
 pub(crate) struct Hearing {
+    /// The thread that has been called: others cannot hear, and must not take its turn.
+    caller: ThreadId,
     begun: Instant,
     /// When to look for signals again (ms).
     next: AtomicU64,
@@ -55,6 +57,7 @@ pub(crate) struct Hearing {
 impl Hearing {
     pub(crate) fn new() -> Self {
         Self {
+            caller: thread::current().id(),
             begun: Instant::now(),
             next: AtomicU64::new(BETWEEN),
             ends: AtomicBool::new(false),
@@ -68,7 +71,7 @@ impl Hearing {
             return true;
         }
         let now = self.begun.elapsed().as_millis() as u64;
-        if now < self.next.load(Ordering::Relaxed) {
+        if now < self.next.load(Ordering::Relaxed) || thread::current().id() != self.caller {
             return false;
         }
         self.next.store(now + BETWEEN, Ordering::Relaxed);
@@ -76,6 +79,11 @@ impl Hearing {
         if let Err(raised) = Python::attach(|py| py.check_signals()) {
             self.end(Some(raised));
         }
+        self.ends.load(Ordering::Relaxed)
+    }
+
+    /// Whether the run has to end, as far as that was heard on another thread.
+    pub(crate) fn has_ended(&self) -> bool {
         self.ends.load(Ordering::Relaxed)
     }
 

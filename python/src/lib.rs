@@ -10,6 +10,7 @@
 //! | `options` | words and numbers from Python as options of the library |
 //! | `analysis` | one configuration with its verdicts |
 //! | `run` | the rows of a run as arrays |
+//! | `sweep` | many runs in shards, and their columns |
 //! | `samples` | a scene whose data vary within their tolerances |
 //! | `comparison` | a scene by every method: error against run time |
 
@@ -21,6 +22,7 @@ mod options;
 mod run;
 mod samples;
 mod scene;
+mod sweep;
 
 /// The private module.
 #[pyo3::pymodule]
@@ -33,6 +35,8 @@ mod _pfaff {
     use super::run::Run;
     #[pymodule_export]
     use super::scene::{Scene, nearest};
+    #[pymodule_export]
+    use super::sweep::{Sweep, merge, sweep_columns};
 
     #[pymodule_export]
     use super::comparison::work_precision;

@@ -282,8 +282,8 @@ pub(crate) struct Sweep {
     pub(crate) vary: Vec<Axis>,
     #[command(flatten)]
     pub(crate) place: Place,
-    /// Every n-th run only, beginning with the i-th; shards may share a directory
-    #[arg(long, value_name = "I/N", default_value = "1/1")]
+    /// The k-th of n parts of the runs only; shards may share a directory
+    #[arg(long, value_name = "K/N", default_value = "1/1")]
     pub(crate) shard: Shard,
     /// Number of runs at the same time; default: the number of cores
     #[arg(long, value_name = "K")]

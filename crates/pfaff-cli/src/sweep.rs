@@ -4,9 +4,11 @@
 use std::num::NonZeroUsize;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use pfaff::report::sweep::FILES;
+use pfaff::report::sweep::{FILES, Records, Runs};
 use pfaff::report::{FileError, SweepDocument, SweepStatus, is_ours};
-use pfaff::sweep::{Sweep, SweepError, SweepProgress, SweepSettings, merge};
+use pfaff::sweep::{
+    Merged, Shard, Sweep, SweepError, SweepProgress, SweepSettings, Tables, end_attempts, merge,
+};
 
 use crate::args;
 use crate::console::Console;
@@ -25,12 +27,12 @@ pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
             &Source::read(scene, &arguments.settings, console)?,
         )?,
         None => {
-            let document =
-                merge(&arguments.merge, &arguments.place.out).map_err(|e| failure(&e))?;
+            let merged = merge(&arguments.merge, &arguments.place.out);
+            let Merged { document, shards } = merged.map_err(|e| failure(&e))?;
             let ending = if document.partial {
-                Ending::Missing
+                Ending::Missing { shards }
             } else {
-                Ending::Whole
+                Ending::Whole(Tables::Written)
             };
             (document, ending)
         }
@@ -38,14 +40,11 @@ pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
     let text = if arguments.json {
         json(&document)?
     } else {
-        describe(
-            &document,
-            ending,
-            &arguments.place.out.display().to_string(),
-        )
+        let out = arguments.place.out.display().to_string();
+        describe(&document, arguments.shard, ending, &out)
     };
     match ending {
-        Ending::Whole if document.done == document.finished => console.print(&text),
+        Ending::Whole(_) if document.done == document.finished => console.print(&text),
         _ => Err(console.incomplete(&text)),
     }
 }
@@ -64,11 +63,14 @@ fn check_place(arguments: &args::Sweep) -> Outcome {
 #[derive(Clone, Copy)]
 enum Ending {
     /// All requested runs are finished.
-    Whole,
+    Whole(Tables),
     /// A stop was requested.
     Interrupted,
     /// Some runs have not been made by any shard.
-    Missing,
+    Missing {
+        /// The number of shards, if it is known.
+        shards: Option<u64>,
+    },
 }
 
 /// Makes the runs.
@@ -91,15 +93,26 @@ fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Endi
         threads: arguments.threads.map_or(0, NonZeroUsize::get),
     };
     let out = arguments.place.out.clone();
+    let is_whole = arguments.shard == Shard::WHOLE;
     let interrupt = Interrupt::listen_with(move || {
+        end_attempts(&out);
         // Whatever is finished is in the journals, from which the tables are made.
         let place = out.display();
-        match merge(&[out.as_path()], &out) {
-            Ok(document) => format!(
-                "interrupted; kept: {} of {} runs in `{place}`; the same command resumes the sweep",
-                document.finished, document.runs
+        let directory = [out.as_path()];
+        let kept = if is_whole {
+            let merged = merge(&directory, &out).map(|merged| merged.document);
+            merged
+                .map(|document| (document.finished, document.runs))
+                .ok()
+        } else {
+            let records = Records::merged(&directory).ok();
+            records.map(|records| (records.rows.len() as u64, records.plan.runs))
+        };
+        match kept {
+            Some((finished, runs)) => format!(
+                "interrupted; kept: {finished} of {runs} runs in `{place}`; the same command resumes the sweep"
             ),
-            Err(_) => format!("interrupted; no run is finished in `{place}`"),
+            None => format!("interrupted; no run is finished in `{place}`"),
         }
     })?;
     let interrupted = || interrupt.is_asked();
@@ -131,12 +144,15 @@ fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Endi
             },
         );
     bar.finish_and_clear();
+    let outcome = outcome.map_err(|e| failure(&e))?;
     let ending = if interrupted() {
         Ending::Interrupted
+    } else if outcome.document.partial {
+        Ending::Missing { shards: None }
     } else {
-        Ending::Whole
+        Ending::Whole(outcome.tables)
     };
-    Ok((outcome.map_err(|e| failure(&e))?, ending))
+    Ok((outcome.document, ending))
 }
 
 fn failure(error: &SweepError) -> Failure {
@@ -148,29 +164,48 @@ fn failure(error: &SweepError) -> Failure {
     failure.coded(error.code())
 }
 
+/// Most gaps and shards that are named.
+const NAMED: usize = 10;
+
 /// The summary in words.
-fn describe(d: &SweepDocument, ending: Ending, out: &str) -> String {
-    let mut text = format!(
-        "{}: {} of {}: {} done, {} stopped, {} refused\n",
-        d.scene,
-        d.finished,
-        count(d.runs as usize, "run", "runs"),
-        d.done,
-        d.stopped,
-        d.refused,
-    );
-    text.push_str(match ending {
-        Ending::Whole => "",
-        Ending::Interrupted => "interrupted; the same command resumes it\n",
-        Ending::Missing => "runs are missing: shards that were not made, or not to their end\n",
-    });
+fn describe(d: &SweepDocument, shard: Shard, ending: Ending, out: &str) -> String {
+    let all = count(d.runs as usize, "run", "runs");
+    let mut text = match d.shard {
+        None if shard == Shard::WHOLE => format!("{}: {} of {all}", d.scene, d.finished),
+        None => format!("{}, shard {shard} of {all}: none", d.scene),
+        Some(runs) => {
+            let own = count(runs.count() as usize, "run", "runs");
+            format!(
+                "{}, shard {shard} of {all}: {} of {own}",
+                d.scene, d.finished
+            )
+        }
+    };
+    text.push_str(&format!(
+        ": {} done, {} stopped, {} refused",
+        d.done, d.stopped, d.refused
+    ));
+    if d.crashed > 0 {
+        text.push_str(&format!(", {} crashed", d.crashed));
+    }
+    text.push('\n');
+    if d.repeated > 0 {
+        let repeated = count(d.repeated as usize, "run was", "runs were");
+        text.push_str(&format!("{repeated} made twice, with the same results\n"));
+    }
+    match ending {
+        Ending::Whole(_) => {}
+        Ending::Interrupted => text.push_str("interrupted; the same command resumes it\n"),
+        Ending::Missing { shards } => text.push_str(&gaps(d, shards)),
+    }
     for failure in &d.failures {
         let lead = format!("run {} {}: ", failure.run, failure.status);
         text.push_str(&wrapped(&lead, &failure.error));
     }
     let named = d.failures.len() as u64;
-    if named < d.stopped + d.refused {
-        let more = d.stopped + d.refused - named;
+    let failed = d.stopped + d.refused + d.crashed;
+    if named < failed {
+        let more = failed - named;
         text.push_str(&format!("and {more} more: see the column `error`\n"));
     }
     if let (Some(balance), Some(run)) = (d.max_energy_balance, d.max_energy_balance_run)
@@ -181,6 +216,42 @@ fn describe(d: &SweepDocument, ending: Ending, out: &str) -> String {
              nor others above {TRUSTED_BALANCE:.0e} in the column `energy_balance`\n"
         ));
     }
-    text.push_str(&format!("written to {out}\n"));
+    let place = match (d.shard, ending) {
+        (Some(_), Ending::Whole(Tables::NotYet)) => {
+            format!("kept in {out}; the shard that ends last writes the tables\n")
+        }
+        (Some(_), Ending::Whole(Tables::Written)) => {
+            format!("all runs are there: tables written to {out}\n")
+        }
+        (Some(_), _) => format!("kept in {out}\n"),
+        (None, _) => format!("written to {out}\n"),
+    };
+    text.push_str(&place);
+    text
+}
+
+/// The runs that are missing, with the shards that make them.
+fn gaps(d: &SweepDocument, shards: Option<u64>) -> String {
+    let mut text = String::new();
+    let option = |shard: &Shard| format!("`--shard {shard}`");
+    let known = |runs: &Runs| Shard::of(*runs, d.runs, shards?);
+    for runs in d.missing.iter().take(NAMED) {
+        let verb = if runs.count() == 1 { "run" } else { "runs" };
+        let is = if runs.count() == 1 { "is" } else { "are" };
+        let makers = match known(runs) {
+            Some(shards) => {
+                let mut options: Vec<String> = shards.iter().take(NAMED).map(option).collect();
+                if shards.len() > NAMED {
+                    options.push(format!("and {} more", shards.len() - NAMED));
+                }
+                options.join(", ")
+            }
+            None => "the command without `--shard` makes what is missing".to_owned(),
+        };
+        text.push_str(&format!("{verb} {runs} {is} missing: {makers}\n"));
+    }
+    if d.missing.len() > NAMED {
+        text.push_str(&format!("and {} more gaps\n", d.missing.len() - NAMED));
+    }
     text
 }

@@ -1,35 +1,38 @@
-//! Many runs of one scene with different numbers: in parallel, in parts, and such that an
-//! interruption loses no finished run.
+//! Many runs of one scene with different numbers: in parallel, in shards on any number of machines,
+//! and such that no end of a process loses a finished run.
 //!
 //! Each run is read, checked, assembled and moved like any scene. A fault of one combination of
 //! numbers is reported in its row; the other runs continue. Only unique reactions have numbers.
 //!
 //! The meaning of a key is in [`scene::Template`], the format of files in [`report::sweep`].
 
+mod attempt;
 mod axis;
 mod error;
+mod gate;
+mod make;
 mod run;
 mod shard;
 #[cfg(test)]
 mod tests;
 
-use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::path::Path;
 
 use model::{Mechanism, Registry, System};
-use rayon::prelude::*;
-use report::sweep::{Journal, Journals, SweepPlan, digest, write_sweep};
-use report::{OutputDirectory, SweepDocument, SweepRow, TrajectoryTable};
+use report::sweep::{Extent, Records, Shards, SweepPlan, digest, write_sweep};
+use report::{OutputDirectory, SweepDocument, SweepRow};
 use scene::{Template, WantedReactions};
 
 use crate::assembled::AssembledScene;
 use crate::error::StudyError;
+use attempt::Attempt;
 use axis::Grid;
+use make::Keep;
 
 pub use axis::{Axis, AxisError};
 pub use error::SweepError;
+pub use report::sweep::end_attempts;
 pub use shard::{Shard, ShardError};
 
 /// A scene and the numbers that are varied in it. Several axes form a full grid, in which the last
@@ -220,15 +223,18 @@ impl<'r> Sweep<'r> {
         }
     }
 
-    /// Makes the runs of a shard that are not in a journal of the directory yet, and writes the
-    /// tables of all finished runs: `sweep.csv`, `sweep.parquet` and `summary.json`. `progress` is
-    /// called with each finished run, in any order; `interrupted` is called often and ends the
-    /// sweep without losing a finished run.
+    /// Makes the runs of a shard that nobody has finished, and writes them as one file. If no run
+    /// of the sweep is left then, or if the shard is the whole, the tables are written:
+    /// `sweep.csv`, `sweep.parquet` and `summary.json`. `progress` is called with each finished
+    /// run, in any order; `interrupted` is called often and ends the sweep without losing a
+    /// finished run.
+    ///
+    /// Any number of processes may work in one directory, also on the same shard. A run during
+    /// which its process ends is made again, alone; if it ends twice then, the row says so.
     ///
     /// # Errors
-    /// - [`SweepError::NoneBegins`]: no run can begin; nothing is written.
-    /// - [`SweepError::Journal`]: the directory belongs to another sweep, or another process works
-    ///   on this shard.
+    /// - [`SweepError::NoneBegins`]: no run of the sweep can begin; nothing is written.
+    /// - [`SweepError::Journal`]: the directory belongs to another sweep.
     /// - [`SweepError::File`], [`SweepError::Table`], [`SweepError::Threads`]: the operating system
     ///   reported an error.
     pub fn run_into(
@@ -237,105 +243,87 @@ impl<'r> Sweep<'r> {
         settings: &SweepSettings,
         interrupted: impl Fn() -> bool + Sync,
         mut progress: impl FnMut(SweepProgress<'_>) + Send,
-    ) -> Result<SweepDocument, SweepError> {
-        // More threads than runs would be idle.
-        let runs = usize::try_from(self.runs()).unwrap_or(usize::MAX);
-        let threads = NonZeroUsize::new(settings.threads.min(runs));
-        let pool = crate::pool(threads).map_err(SweepError::Threads)?;
-        pool.install(|| self.check(&interrupted))?;
+    ) -> Result<SweepOutcome, SweepError> {
+        let is_new = !directory.exists();
         let output = OutputDirectory::create(directory)?.shared()?;
-        let journal = Journal::open(directory, &settings.shard.journal(), &self.plan)?;
-        let finished = Journals::read(&[directory])?.rows;
-        let mine = (1..=self.runs()).filter(|run| settings.shard.has(*run));
-        let (before, pending): (Vec<u64>, Vec<u64>) =
-            mine.partition(|run| finished.contains_key(run));
-        drop(finished);
+        let shards = Shards::open(directory, &self.plan)?;
+        let Some(runs) = settings.shard.runs(self.runs()) else {
+            progress(SweepProgress::Begin {
+                runs: 0,
+                finished: 0,
+            });
+            let records = Records::none(&self.plan);
+            return self.ended(&output, &shards, settings.shard, records);
+        };
+        let known = shards.read(runs)?;
+        let pending = known.missing(runs);
+        let left: u64 = pending.iter().map(|runs| runs.count()).sum();
         progress(SweepProgress::Begin {
-            runs: (before.len() + pending.len()) as u64,
-            finished: before.len() as u64,
+            runs: runs.count(),
+            finished: runs.count() - left,
         });
-        let ledger = Mutex::new((journal, progress));
-        let make = |run: &u64| {
-            let keep = self
-                .plan
-                .keep_rows
-                .then(|| folder(directory, *run, self.runs()));
-            if let Some(row) = self.whole_row(*run, keep.as_deref(), &interrupted)? {
-                // A thread that panicked has written a whole line or none.
-                let mut ledger = ledger.lock().unwrap_or_else(PoisonError::into_inner);
-                ledger.0.append(&row)?;
-                ledger.1(SweepProgress::Finished(&row));
-            }
-            Ok::<(), SweepError>(())
+        if left == 0 && runs.without(&known.sealed).is_empty() {
+            shards.tidy(runs)?;
+            return self.ended(&output, &shards, settings.shard, known);
+        }
+        let keep = if self.plan.keep_rows {
+            Keep::Trajectories(directory)
+        } else {
+            Keep::Rows
         };
-        pool.install(|| pending.par_iter().with_max_len(1).try_for_each(make))?;
-        let (journal, _) = ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
-        journal.finish()?;
-        write_sweep(&output, || Ok(Journals::read(&[directory])?))
+        let journal = shards.begin(runs)?;
+        let attempt = Attempt::new(self, keep, &interrupted, journal, &mut progress);
+        attempt.make(&known, &pending, settings.threads)?;
+        let refused = !known.has_begun() && !attempt.has_begun() && !interrupted();
+        if refused && let Some(error) = attempt.none_begins(runs, &known)? {
+            attempt.into_journal().discard()?;
+            shards.forget();
+            if is_new {
+                drop(output);
+                // Others may have begun.
+                let _ = std::fs::remove_dir(directory);
+            }
+            return Err(error);
+        }
+        attempt.into_journal().finish()?;
+        let now = shards.read(runs)?;
+        if now.missing(runs).is_empty() {
+            for hole in runs.without(&now.sealed) {
+                shards.seal(hole, &now)?;
+            }
+            shards.tidy(runs)?;
+        }
+        self.ended(&output, &shards, settings.shard, now)
     }
 
-    /// Makes a run, with its trajectory in a directory if one is given. Returns `None` if it was
-    /// interrupted.
-    fn whole_row(
+    /// Writes the tables, if they are due.
+    fn ended(
         &self,
-        run: u64,
-        keep: Option<&Path>,
-        interrupted: &(impl Fn() -> bool + Sync),
-    ) -> Result<Option<SweepRow>, SweepError> {
-        if interrupted() {
-            return Ok(None);
+        output: &OutputDirectory,
+        shards: &Shards,
+        shard: Shard,
+        records: Records,
+    ) -> Result<SweepOutcome, SweepError> {
+        let runs = shard.runs(self.runs());
+        if shard.n() == 1 {
+            let document = write_all(output, shards, records)?;
+            return Ok(SweepOutcome {
+                document,
+                tables: Tables::Written,
+            });
         }
-        let begun = match self.begin(run) {
-            Ok(begun) => begun,
-            Err(error) => return Ok(Some(self.refused(run, &error))),
+        let document = SweepDocument::new(&records, Extent::Shard(runs));
+        drop(records);
+        let sealed = shards.sealed()?;
+        let all = shards.all();
+        let tables = if all.is_some_and(|all| all.without(&sealed).is_empty()) {
+            let records = all.map_or_else(|| Ok(Records::none(&self.plan)), |all| shards.read(all));
+            write_all(output, shards, records?)?;
+            Tables::Written
+        } else {
+            Tables::NotYet
         };
-        if interrupted() {
-            return Ok(None);
-        }
-        let table = |directory: &Path| {
-            let file = OutputDirectory::create(directory)?.file("trajectory.csv")?;
-            Ok::<_, SweepError>(TrajectoryTable::new(file, &begun.study.prepared.mechanism)?)
-        };
-        let mut table = keep.map(table).transpose()?;
-        let mut unwritten = None;
-        let row = begun.go(interrupted, |sample| {
-            if let Some(table) = &mut table {
-                unwritten = table.row(sample.t, sample.q, sample.v).err();
-            }
-            if unwritten.is_some() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
-        if let Some(error) = unwritten {
-            return Err(error.into());
-        }
-        // The run may have ended just before the request; it is made again then.
-        if interrupted() {
-            return Ok(None);
-        }
-        if let Some(table) = table {
-            // The trajectory is stored on disk before the journal records the run.
-            let mut file = table.finish()?;
-            file.sync()?;
-            file.finish()?;
-        }
-        Ok(Some(row))
-    }
-
-    /// Returns an error if no run can begin. The search ends at the first one that can.
-    fn check(&self, interrupted: &(impl Fn() -> bool + Sync)) -> Result<(), SweepError> {
-        let begins = |run: &u64| interrupted() || self.begin(*run).is_ok();
-        let found = (1..=self.runs()).into_par_iter().find_any(begins);
-        match (found, self.begin(1).err()) {
-            (None, Some(error)) => Err(SweepError::NoneBegins {
-                runs: self.runs(),
-                values: self.values(1),
-                reason: run::reason(&error),
-            }),
-            _ => Ok(()),
-        }
+        Ok(SweepOutcome { document, tables })
     }
 
     /// The varied keys with their values in a run.
@@ -348,20 +336,65 @@ impl<'r> Sweep<'r> {
     }
 }
 
-/// Merges the journals of several directories into one set of tables.
-///
-/// # Errors
-/// [`SweepError::Journal`]: they belong to different sweeps; [`SweepError::File`],
-/// [`SweepError::Table`]: something could not be written.
-pub fn merge<P: AsRef<Path>>(directories: &[P], into: &Path) -> Result<SweepDocument, SweepError> {
-    let journals = Journals::read(directories)?;
-    write_sweep(&OutputDirectory::create(into)?.shared()?, || Ok(journals))
+/// How a sweep, or a shard of it, ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepOutcome {
+    /// Its runs.
+    pub document: SweepDocument,
+    /// The tables of all runs.
+    pub tables: Tables,
 }
 
-/// Directory of the files of a run; its number has as many digits as that of the last run.
-fn folder(directory: &Path, run: u64, runs: u64) -> PathBuf {
-    let width = runs.to_string().len();
-    directory.join("runs").join(format!("{run:0width$}"))
+/// Whether the tables of all runs have been written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tables {
+    /// They have, by this call.
+    Written,
+    /// Runs of other shards are missing: who makes the last one writes them, or [`merge`].
+    NotYet,
+}
+
+/// Merges what several directories have into one set of tables.
+///
+/// # Errors
+/// [`SweepError::Journal`]: they belong to different sweeps, or two rows of one run differ;
+/// [`SweepError::File`], [`SweepError::Table`]: something could not be written.
+pub fn merge<P: AsRef<Path>>(directories: &[P], into: &Path) -> Result<Merged, SweepError> {
+    let records = Records::merged(directories)?;
+    let output = OutputDirectory::create(into)?.shared()?;
+    Ok(Merged {
+        document: write_sweep::<SweepError>(&output, &records)?,
+        shards: Shard::number(records.plan.runs, &records.sealed),
+    })
+}
+
+/// What [`merge`] has found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Merged {
+    /// All runs.
+    pub document: SweepDocument,
+    /// The number of shards in which the runs were made, if the finished ones tell.
+    pub shards: Option<u64>,
+}
+
+/// Writes the tables. If others have finished shards meanwhile, they may have written tables with
+/// more rows before: then once more.
+fn write_all(
+    output: &OutputDirectory,
+    shards: &Shards,
+    mut records: Records,
+) -> Result<SweepDocument, SweepError> {
+    loop {
+        let document: SweepDocument = write_sweep::<SweepError>(output, &records)?;
+        let Some(all) = shards.all().filter(|_| document.partial) else {
+            return Ok(document);
+        };
+        let again = shards.read(all)?;
+        if again.rows.len() <= records.rows.len() {
+            return Ok(document);
+        }
+        records = again;
+    }
 }
 
 /// What a one of each axis is in SI, by the keys at which the scene reads bare numbers. Scenes of

@@ -8,13 +8,14 @@
 
 mod lock;
 mod ours;
+pub(crate) mod process;
 
 use model::codes::Code;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::mem;
 use std::path::{Component, Path, PathBuf};
-use std::process;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::thread::sleep;
 use std::time::Duration;
@@ -113,9 +114,19 @@ fn paths_of(paths: &[PathBuf]) -> String {
 #[derive(Clone, Debug)]
 pub struct OutputDirectory {
     path: PathBuf,
+    parts: Parts,
     written: Arc<Mutex<Written>>,
     /// Excludes other processes until the last clone is dropped.
     _lock: Option<Arc<File>>,
+}
+
+/// Names of files that are not finished.
+#[derive(Clone, Copy, Debug)]
+enum Parts {
+    /// `<name>.part`: what a run has left is replaced by the next.
+    Plain,
+    /// Those of this process alone.
+    Own,
 }
 
 /// What this process has written into a directory.
@@ -151,6 +162,7 @@ impl OutputDirectory {
         fs::create_dir_all(&path).map_err(FileError::refused("make the directory", &path))?;
         Ok(Self {
             path,
+            parts: Parts::Plain,
             written: Arc::default(),
             _lock: None,
         })
@@ -170,8 +182,16 @@ impl OutputDirectory {
         })
     }
 
-    /// Like [`Self::exclusive`], but processes that share it do not exclude each other: they write
-    /// different files.
+    /// Lets several processes write the same files at the same time: files that are not finished
+    /// have names of their own, and the one that is finished last stays.
+    #[must_use]
+    pub fn with_own_parts(mut self) -> Self {
+        self.parts = Parts::Own;
+        self
+    }
+
+    /// Like [`Self::exclusive`], but processes that share it do not exclude each other; see
+    /// [`Self::with_own_parts`].
     ///
     /// # Errors
     /// As [`Self::exclusive`].
@@ -179,7 +199,7 @@ impl OutputDirectory {
         let lock = lock::of(&self.path, File::try_lock_shared)?;
         Ok(Self {
             _lock: lock.map(Arc::new),
-            ..self
+            ..self.with_own_parts()
         })
     }
 
@@ -315,13 +335,17 @@ impl OutputDirectory {
                 directory: self.path.clone(),
             });
         }
-        let part = self.path.join(format!("{name}.part"));
+        let path = self.path.join(name);
+        let part = match self.parts {
+            Parts::Plain => self.path.join(format!("{name}.part")),
+            Parts::Own => own_part(&path),
+        };
         let file = new_file(&part).map_err(FileError::refused(MAKE, &part))?;
         Ok(OutputFile {
             content: Arc::new(Mutex::new(Content {
                 buffer: Ok(BufWriter::new(file)),
                 part,
-                path: self.path.join(name),
+                path,
             })),
         })
     }
@@ -338,15 +362,21 @@ fn new_file(path: &Path) -> io::Result<File> {
     options.read(true).write(true).create_new(true).open(path)
 }
 
+/// The name of a file that is not finished, which no other process or thread has, on any machine.
+pub(crate) fn own_part(path: &Path) -> PathBuf {
+    static COUNT: AtomicU64 = AtomicU64::new(0);
+    let count = COUNT.fetch_add(1, Ordering::Relaxed);
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}-{count}.part", process::Process::own().name()));
+    path.with_file_name(name)
+}
+
 /// Writes a single file next to its place and renames it; a link at its place is replaced.
 ///
 /// # Errors
 /// - [`FileError::Refused`]: it cannot be written; an older file stays as it is.
 pub fn replace_file(path: &Path, content: &[u8]) -> Result<(), FileError> {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    // Another process may be writing the same file.
-    name.push(format!(".{}.part", process::id()));
-    let part = path.with_file_name(name);
+    let part = own_part(path);
     let mut file = new_file(&part).map_err(FileError::refused(MAKE, path))?;
     let written = file.write_all(content);
     drop(file);

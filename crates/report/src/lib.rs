@@ -9,7 +9,7 @@
 //! | [`figures`] | the mechanism with its verdicts, histories, paths in the plane: SVG |
 //! | [`mod@work_precision`] | error against run time: table, figure, page |
 //! | [`mod@tolerance`] | data within their tolerances: page |
-//! | [`mod@sweep`] | many runs: a journal that survives interruptions, CSV and Parquet |
+//! | [`mod@sweep`] | many runs: shards and journals that survive interruptions, CSV and Parquet |
 //! | [`html`] | the page of a run, with its animation |
 //! | [`page`] | common parts of pages: head, end, style, format of numbers |
 //! | [`files`] | an output directory without incomplete files under final names |

@@ -1,20 +1,26 @@
 //! Many runs of one scene with different numbers: a row for each, a journal during the runs, tables
 //! at the end.
 //!
-//! A journal is a text file to which lines are only appended: a first line that describes the
-//! sweep, and one line for each finished run. Tables are computed from journals, completely and in
-//! the order of the grid, whichever processes made the runs and at whatever time.
+//! While runs are made, each finished run is a line in a journal to which lines are only appended.
+//! When all runs of a shard have rows, they become one file, and the journals go. Tables are
+//! computed from both, completely and in the order of the grid, whichever processes made the runs
+//! and at whatever time.
 //!
-//! Journals are read only in this module.
+//! Both are read only in this module.
 //!
 //! Grids, runs and threads are in the crate `pfaff`.
 
 mod cell;
 mod document;
+mod error;
 mod journal;
+mod line;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod records;
 mod row;
+mod runs;
+mod shards;
 mod tables;
 #[cfg(test)]
 mod tests;
@@ -25,9 +31,14 @@ use model::SpaceKind;
 use serde::{Deserialize, Serialize};
 
 pub use cell::{Cell, Column, Kind};
-pub use document::{SweepDocument, SweepFailure};
-pub use journal::{Journal, JournalError, Journals, digest};
+pub use document::{Extent, SweepDocument, SweepFailure};
+pub use error::{Difference, JournalError};
+pub use journal::Journal;
+pub use line::digest;
+pub use records::Records;
 pub use row::{Extreme, SweepMotion, SweepRow, SweepStatus};
+pub use runs::Runs;
+pub use shards::{Shards, end_attempts};
 pub use tables::{FILES, write_sweep};
 
 /// Description of a sweep: everything on which its rows depend, and the names in them.

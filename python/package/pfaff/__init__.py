@@ -14,6 +14,7 @@ A scene is a text, as in a file, and does not change: methods return new ones. A
 the command ``pfaff``, in SI units and radians. See ``docs/book/python.md``.
 """
 
+from . import cluster
 from ._analysis import Analysis, ComponentVerdict, GroupVerdict, Verdict
 from ._comparison import Curve, WorkPrecision
 from ._errors import ComputationError, Error, InputError, InternalError, Place, SceneError
@@ -22,6 +23,7 @@ from ._pfaff import __version__
 from ._run import BodyMotion, Event, Reaction, Run
 from ._samples import Samples
 from ._scene import Matrices, Scene
+from .cluster import SweepResult
 
 __all__ = [
     "Analysis",
@@ -42,7 +44,9 @@ __all__ = [
     "Samples",
     "Scene",
     "SceneError",
+    "SweepResult",
     "Verdict",
     "WorkPrecision",
     "__version__",
+    "cluster",
 ]

@@ -8,7 +8,7 @@ from _typeshed import Incomplete, SupportsGetItem
 from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-__all__ = ["__version__", "Analysis", "Run", "Scene", "_panics", "input_code", "nearest", "tolerance", "work_precision"]
+__all__ = ["__version__", "Analysis", "Run", "Scene", "Sweep", "_panics", "input_code", "merge", "nearest", "sweep_columns", "tolerance", "work_precision"]
 
 __version__: Final[str]
 """
@@ -149,6 +149,38 @@ class Scene:
         The same scene with other numbers or expressions.
         """
 
+@final
+class Sweep:
+    """
+    A scene and what is varied in it.
+    """
+    def __new__(cls, /, name: str, text: str, vary: SupportsGetItem[int, str], keep_rows: bool) -> Sweep: ...
+    def make(self, /, directory: str | PathLike[str], k: SupportsIndex, n: SupportsIndex, threads: SupportsIndex, on_runs: Any | None, stop: Any | None) -> tuple[str, int, bool]:
+        """
+        Makes the runs of a shard that are not finished. Returns its summary, the number of runs
+        that were made, and whether the tables of all runs were written.
+
+        `on_runs` gets the number of finished runs and of failed ones among them, from time to time;
+        the shard ends where it or `stop` returns `True`.
+        """
+    @property
+    def runs(self, /) -> int:
+        """
+        Number of runs of all shards.
+        """
+    def seconds(self, /, run: SupportsIndex) -> float:
+        """
+        Makes a run without writing anything, and returns how long that took (s).
+        """
+    def shards(self, /, directory: str | PathLike[str]) -> int | None:
+        """
+        The number of shards in which a directory is being filled, if it tells.
+        """
+    def unfinished(self, /, directory: str | PathLike[str], n: SupportsIndex) -> list[int]:
+        """
+        Which of n shards are not finished.
+        """
+
 def _panics() -> None:
     """
     Panics, for the test that no panic leaves this module.
@@ -159,9 +191,20 @@ def input_code() -> str:
     The code of wrong input.
     """
 
+def merge(directories: SupportsGetItem[int, str | PathLike[str]], into: str | PathLike[str]) -> str:
+    """
+    Writes the tables of what is in some directories. Returns the summary.
+    """
+
 def nearest(name: str, known: SupportsGetItem[int, str]) -> str | None:
     """
     The known name that is most similar to a name, if one is.
+    """
+
+def sweep_columns(directory: str | PathLike[str]) -> tuple[str, list[tuple[str, Any]]]:
+    """
+    The summary of what is in a directory, and its columns: counts as whole numbers, or with NaN if
+    some are unknown, numbers, and lists of texts.
     """
 
 def tolerance(scene: Scene, options: Incomplete) -> tuple[str, list[tuple[str, list[str] | Incomplete]]]:

@@ -17,6 +17,7 @@ from ._comparison import WorkPrecision
 from ._errors import wrong
 from ._linearisation import Linearisation
 from ._run import Event, Run
+from .cluster import SweepResult, Vary, sweep
 from ._samples import Samples
 
 Array = NDArray[np.float64]
@@ -342,6 +343,19 @@ class Scene:
                 # A run that stops has a page of what it has computed.
                 if os.path.exists(page):
                     move(page, path)
+
+    def sweep(
+        self,
+        vary: Vary,
+        out: str | os.PathLike[str] | None = None,
+        threads: int | None = None,
+        **options: Any,
+    ) -> SweepResult:
+        """Runs the scene with every combination of values, on this machine.
+
+        See :func:`pfaff.cluster.sweep`, which also takes the other options.
+        """
+        return sweep(self, vary, None, out=out, threads=threads, **options)
 
     def matrices(
         self, q: ArrayLike | None = None, v: ArrayLike | None = None, t: float = 0.0

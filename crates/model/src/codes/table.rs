@@ -1064,21 +1064,15 @@ pub const TABLE: &[Entry] = &[
         ),
     ),
     entry(
-        504,
-        "Another sweep is writing the journal",
-        "Wait for its end, or take a shard of your own.",
-        Example::None("it needs another sweep"),
-    ),
-    entry(
         505,
-        "The journal belongs to another sweep",
-        "Take another directory, or remove the journal.",
+        "The directory belongs to another sweep",
+        "Take another directory, or remove its folder `shards`.",
         Example::None("it needs two sweeps"),
     ),
     entry(
         506,
-        "The first line of a journal is damaged",
-        "Remove the journal to begin again.",
+        "The first line of a file of a sweep is damaged",
+        "Remove the file; its runs are made again.",
         Example::None("it needs a damaged file"),
     ),
     entry(
@@ -1092,6 +1086,12 @@ pub const TABLE: &[Entry] = &[
         "Threads cannot be started",
         "Use fewer with `--threads`.",
         MACHINE,
+    ),
+    entry(
+        509,
+        "Two rows of one run differ",
+        "Remove the file that is not to be trusted, and make its runs again.",
+        Example::None("it needs machines that compute differently"),
     ),
     entry(
         510,

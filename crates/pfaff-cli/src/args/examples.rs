@@ -14,7 +14,7 @@ Reactions that are not unique are never given a number without the choice it dep
 pub(super) const SWEEP: &str = "Examples:
   pfaff sweep robot.toml --vary body.platform.mass=10:40:31 --out masses
   pfaff sweep robot.toml --vary drive.steering.motion.steps[0].by=0.01,0.02 --vary simulate.rtol=1e-4:1e-10:7:log --out grid
-  pfaff sweep robot.toml --vary body.platform.mass=10:40:31 --out masses --shard 2/3    every third run, for one of three machines
+  pfaff sweep robot.toml --vary body.platform.mass=10:40:31 --out masses --shard 2/3    the second third of the runs, for one of three machines
   pfaff sweep --merge masses-1 masses-2 masses-3 --out masses                          one table of all
 
 The same command again goes on where the last one was interrupted. Several --vary are a full grid; the last one runs fastest. Things go by their names or by

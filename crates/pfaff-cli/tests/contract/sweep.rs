@@ -1,13 +1,14 @@
-//! `sweep`: its tables, its refusals, and that no finished run is lost or repeated after any
-//! interruption.
+//! `sweep`: its tables, its shards, its refusals, and that no finished run is lost or repeated
+//! whatever ends its process.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
+use pfaff::report::sweep::digest;
 use serde_json::Value;
 
 use super::bad_input::PENDULUM;
@@ -55,19 +56,35 @@ fn begun(arguments: &[&str]) -> Child {
     command.spawn().expect("the command starts")
 }
 
-/// Waits until a journal contains this number of finished runs.
-fn wait_for(journal: &Path, runs: usize) {
+/// Lines of finished runs in the files of the folder `shards` with this ending, by run.
+fn lines(folder: &Folder, ending: &str) -> BTreeMap<usize, String> {
+    let entries = fs::read_dir(folder.0.join("shards")).into_iter().flatten();
+    let paths = entries.map(|entry| entry.expect("readable").path());
+    let mut all = BTreeMap::new();
+    for path in paths.filter(|path| path.to_string_lossy().ends_with(ending)) {
+        let text = fs::read_to_string(&path).unwrap_or_default();
+        let whole = text
+            .split_inclusive('\n')
+            .filter_map(|line| line.strip_suffix('\n'));
+        for (_, row) in whole.filter_map(|line| line.split_once(' ')) {
+            if let Some(run) = row.split(',').next().and_then(|run| run.parse().ok()) {
+                let before = all.insert(run, row.to_owned());
+                assert!(before.is_none(), "run {run} was made twice");
+            }
+        }
+    }
+    all
+}
+
+/// Waits until journals contain this number of finished runs.
+fn wait_for(folder: &Folder, runs: usize) {
     let begin = Instant::now();
     loop {
-        let lines = fs::read(journal).map_or(0, |b| b.iter().filter(|b| **b == b'\n').count());
-        if lines > runs {
+        let found = lines(folder, ".journal").len();
+        if found >= runs {
             return;
         }
-        assert!(
-            begin.elapsed() < PATIENCE,
-            "{lines} lines in {}",
-            journal.display()
-        );
+        assert!(begin.elapsed() < PATIENCE, "{found} runs");
         std::thread::sleep(Duration::from_millis(2));
     }
 }
@@ -96,37 +113,129 @@ fn a_killed_sweep_loses_nothing_and_repeats_nothing() {
         let words = arguments(folder, threads);
         pfaff(&words.iter().map(String::as_str).collect::<Vec<_>>())
     };
-    let journal = killed.0.join("sweep.journal");
-    let mut kept = Vec::new();
+    let mut kept = BTreeMap::new();
     for k in 1..=2 {
         let words = arguments(&killed, "2");
         let mut child = begun(&words.iter().map(String::as_str).collect::<Vec<_>>());
-        wait_for(&journal, 3 * k);
+        wait_for(&killed, 4 * k);
         // SIGKILL: no code of the program runs after it.
         child.kill().expect("it runs");
         assert!(!child.wait().expect("it ends").success());
-        let mut bytes = fs::read(&journal).expect("written");
-        let end = bytes.iter().rposition(|b| *b == b'\n').expect("lines") + 1;
-        assert!(bytes.starts_with(&kept), "finished runs were made again");
-        kept = bytes[..end].to_vec();
+        let now = lines(&killed, ".journal");
         assert!(
-            kept.iter().filter(|b| **b == b'\n').count() < 25,
-            "it was too fast to be killed"
+            kept.iter().all(|(run, row)| now.get(run) == Some(row)),
+            "a finished run was lost"
         );
+        kept = now;
+        assert!(kept.len() < 24, "it was too fast to be killed");
         // Half of a line, as a power failure leaves it.
-        bytes.truncate(end);
-        bytes.extend_from_slice(&kept[kept.len() - 100..kept.len() - 1]);
-        fs::write(&journal, &bytes).expect("writable");
+        for entry in fs::read_dir(killed.0.join("shards")).expect("begun") {
+            let path = entry.expect("readable").path();
+            if path.extension().is_some_and(|ending| ending == "journal") {
+                let mut bytes = fs::read(&path).expect("readable");
+                bytes.extend_from_slice(b"0123456789abcdef 1,2.5,do");
+                fs::write(&path, &bytes).expect("writable");
+            }
+        }
     }
     assert_eq!(run(&killed, "2").status.code(), Some(0));
-    let bytes = fs::read(&journal).expect("written");
-    assert!(bytes.starts_with(&kept), "finished runs were made again");
-    assert_eq!(bytes.iter().filter(|b| **b == b'\n').count(), 25);
+    assert_eq!(lines(&killed, ".journal").len(), 0);
+    let sealed = lines(&killed, ".rows");
+    assert_eq!(sealed.len(), 24);
+    assert!(
+        // Also the time that it took.
+        kept.iter().all(|(run, row)| sealed.get(run) == Some(row)),
+        "a finished run was made again"
+    );
     assert_eq!(run(&whole, "1").status.code(), Some(0));
     assert_eq!(table(&killed), table(&whole));
     // A third run finds nothing to do.
     assert_eq!(run(&killed, "1").status.code(), Some(0));
-    assert_eq!(fs::read(&journal).expect("written"), bytes);
+    assert_eq!(lines(&killed, ".rows"), sealed);
+    assert_eq!(summary(&killed)["repeated"], 0);
+}
+
+#[test]
+fn the_same_shard_in_two_processes_is_harmless() {
+    let [twice, whole] = ["sweep-twice", "sweep-once"].map(Folder::new);
+    let words = |folder| {
+        [
+            "sweep",
+            ROBOT,
+            "--vary",
+            MASSES,
+            "--shard",
+            "1/2",
+            "--threads",
+            "1",
+            "--out",
+            folder,
+        ]
+    };
+    let children = [0, 1].map(|_| begun(&words(twice.text())));
+    for child in children {
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let text = stdout(&output);
+        assert!(
+            text.contains("shard 1/2 of 24 runs: 12 of 12 runs: 12 done"),
+            "{text}"
+        );
+    }
+    assert!(!twice.0.join("sweep.csv").exists());
+    assert_eq!(lines(&twice, ".rows").len(), 12);
+    let rest = ["sweep", ROBOT, "--vary", MASSES, "--out", twice.text()];
+    assert_eq!(pfaff(&rest).status.code(), Some(0));
+    let all = ["sweep", ROBOT, "--vary", MASSES, "--out", whole.text()];
+    assert_eq!(pfaff(&all).status.code(), Some(0));
+    assert_eq!(table(&twice), table(&whole));
+}
+
+/// Two hundred shards, a hundred of them made before; a run that is made again would have another
+/// time.
+#[test]
+fn shards_that_are_finished_are_not_made_again() {
+    let [folder, whole] = ["sweep-resumed", "sweep-in-one"].map(Folder::new);
+    let sweep = |folder: &Folder, more: &[&str]| {
+        let vary = "body.bob.mass=1:3:400";
+        let words = [
+            "sweep",
+            "-",
+            "--vary",
+            vary,
+            "--set",
+            "simulate.t_end=0.01",
+            "--out",
+            folder.text(),
+        ];
+        with_scene(&[&words[..], more].concat(), PENDULUM)
+    };
+    let shards = |folder: &Folder, of: std::ops::RangeInclusive<usize>| {
+        for k in of {
+            let output = sweep(folder, &["--shard", &format!("{k}/200")]);
+            assert_eq!(output.status.code(), Some(0), "{output:?}");
+        }
+    };
+    shards(&folder, 1..=100);
+    let before = lines(&folder, ".rows");
+    assert_eq!(before.len(), 200);
+    let merged = Folder::new("sweep-half");
+    let output = pfaff(&["sweep", "--merge", folder.text(), "--out", merged.text()]);
+    let text = stdout(&output);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(
+        text.contains("runs 201-400 are missing: `--shard 101/200`, `--shard 102/200`"),
+        "{text}"
+    );
+    assert!(text.contains("and 90 more"), "{text}");
+    shards(&folder, 1..=200);
+    let after = lines(&folder, ".rows");
+    assert_eq!(after.len(), 400);
+    assert!(before.iter().all(|(run, row)| after.get(run) == Some(row)));
+    // The last one has written the tables.
+    assert_eq!(sweep(&whole, &[]).status.code(), Some(0));
+    assert_eq!(table(&folder), table(&whole));
+    assert_eq!(summary(&folder)["finished"], 400);
 }
 
 #[cfg(unix)]
@@ -142,7 +251,7 @@ fn an_interrupted_sweep_says_so_and_has_code_1() {
         "--out",
         folder.text(),
     ]);
-    wait_for(&folder.0.join("sweep.journal"), 2);
+    wait_for(&folder, 2);
     let interrupt = Command::new("kill")
         .args(["-INT", &child.id().to_string()])
         .status();
@@ -165,6 +274,16 @@ fn an_interrupted_sweep_says_so_and_has_code_1() {
         .collect();
     assert_eq!(document["finished"], runs.len());
     assert!(runs.is_sorted() && runs.len() < 24);
+    assert_eq!(document["crashed"], 0);
+    // It has left by order, so that no run is suspected.
+    let entries = fs::read_dir(folder.0.join("shards")).expect("begun");
+    let paths = entries.map(|entry| entry.expect("readable").path());
+    let journals: Vec<_> = paths
+        .filter(|path| path.extension().is_some_and(|e| e == "journal"))
+        .collect();
+    assert_eq!(journals.len(), 1);
+    let text = fs::read_to_string(&journals[0]).expect("readable");
+    assert!(text.lines().any(|line| line.ends_with(" end")), "{text}");
 }
 
 #[test]
@@ -182,15 +301,30 @@ fn shards_make_the_whole() {
         with_scene(&[&words[..], more].concat(), PENDULUM)
     };
     assert_eq!(sweep(&whole, &[]).status.code(), Some(0));
-    for (folder, shard) in [(&one, "1/2"), (&two, "2/2")] {
-        assert_eq!(sweep(folder, &["--shard", shard]).status.code(), Some(0));
-        assert_eq!(summary(folder)["partial"], true);
+    for (folder, shard, runs) in [(&one, "1/2", 2), (&two, "2/2", 3)] {
+        let output = sweep(folder, &["--shard", shard]);
+        assert_eq!(output.status.code(), Some(0));
+        let expected = format!(
+            "shard {shard} of 5 runs: {runs} of {runs} runs: {runs} done, 0 stopped, 0 refused\nkept in {}",
+            folder.text()
+        );
+        assert!(stdout(&output).contains(&expected), "{}", stdout(&output));
+        assert!(!folder.0.join("sweep.csv").exists());
+        let part = File::open(folder.0.join(format!(
+            "shards/{}.parquet",
+            if runs == 2 { "1-2" } else { "3-5" }
+        )));
+        let part = SerializedFileReader::new(part.expect("a part")).expect("Parquet");
+        assert_eq!(part.metadata().file_metadata().num_rows(), runs);
     }
     let missing = Folder::new("sweep-missing");
     let output = pfaff(&["sweep", "--merge", one.text(), "--out", missing.text()]);
     assert_eq!(output.status.code(), Some(1));
+    let text = stdout(&output);
+    assert!(text.contains("2 of 5 runs"), "{text}");
     assert!(
-        stdout(&output).contains("3 of 5 runs") && stdout(&output).contains("runs are missing")
+        text.contains("runs 3-5 are missing: `--shard 2/2`"),
+        "{text}"
     );
     let output = pfaff(&[
         "sweep",
@@ -202,6 +336,37 @@ fn shards_make_the_whole() {
     ]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     assert_eq!(table(&two), table(&whole));
+    // The same run, made differently.
+    let path = two.0.join("shards/3-5.rows");
+    let three = lines(&two, ".rows")[&3].clone();
+    let changed = three.replacen("done", "done ", 1);
+    let other = Folder::new("sweep-other");
+    fs::create_dir_all(other.0.join("shards")).expect("writable");
+    fs::copy(two.0.join("shards/plan"), other.0.join("shards/plan")).expect("writable");
+    let line = |text: &str| format!("{:016x} {text}\n", digest(text.as_bytes()));
+    let text = fs::read_to_string(&path).expect("readable");
+    let head = text.lines().next().expect("a line");
+    fs::write(
+        other.0.join("shards/3-5.rows"),
+        format!("{head}\n{}", line(&changed)),
+    )
+    .expect("writable");
+    let output = pfaff(&[
+        "sweep",
+        "--merge",
+        two.text(),
+        other.text(),
+        "--out",
+        missing.text(),
+    ]);
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    assert!(
+        text.starts_with(
+            "error[P0509]: run 3 was made twice, and differently: `status` is \"done\" in"
+        ),
+        "{text}"
+    );
     let output = pfaff(&[
         "sweep",
         "--merge",
@@ -212,6 +377,74 @@ fn shards_make_the_whole() {
         "1/2",
     ]);
     assert_eq!(output.status.code(), Some(2));
+}
+
+/// The script of the book, with the variables that Slurm sets and fewer runs.
+#[cfg(unix)]
+#[test]
+fn the_script_for_slurm_makes_the_sweep() {
+    let [folder, whole] = ["sweep-slurm", "sweep-no-slurm"].map(Folder::new);
+    let book = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/book/clusters.md");
+    let page = fs::read_to_string(book).expect("readable");
+    let script = page
+        .split("```sh\n")
+        .nth(1)
+        .and_then(|rest| rest.split("```").next());
+    let script = script.expect("a script");
+    for (text, count) in [
+        ("#SBATCH --array=1-200\n", 1),
+        ("/200\"", 1),
+        (":50000", 1),
+        ("cart", 2),
+    ] {
+        assert_eq!(script.matches(text).count(), count, "{text}");
+    }
+    let script = script
+        .replace("/200", "/3")
+        .replace(":50000", ":7")
+        .replace("body.cart", "body.bob");
+    fs::create_dir_all(&folder.0).expect("writable");
+    fs::write(folder.0.join("cart.toml"), PENDULUM).expect("writable");
+    fs::write(folder.0.join("sweep.sh"), script).expect("writable");
+    let command = std::path::Path::new(env!("CARGO_BIN_EXE_pfaff"));
+    let path = std::env::join_paths(
+        command
+            .parent()
+            .map(std::path::Path::to_owned)
+            .into_iter()
+            .chain(std::env::split_paths(
+                &std::env::var_os("PATH").unwrap_or_default(),
+            )),
+    );
+    let path = path.expect("a path");
+    // In any order; the second one twice, as after a lost machine.
+    for (k, last) in [("3", false), ("2", false), ("2", false), ("1", true)] {
+        let output = Command::new("sh")
+            .arg("sweep.sh")
+            .current_dir(&folder.0)
+            .env("PATH", &path)
+            .env("SLURM_ARRAY_TASK_ID", k)
+            .env("SLURM_ARRAY_TASK_COUNT", "4711")
+            .env("SLURM_CPUS_PER_TASK", "1")
+            .output()
+            .expect("a shell");
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        assert_eq!(
+            stdout(&output).contains("tables written to masses"),
+            last,
+            "{output:?}"
+        );
+    }
+    let words = [
+        "sweep",
+        "-",
+        "--vary",
+        "body.bob.mass=5:20:7",
+        "--out",
+        whole.text(),
+    ];
+    assert_eq!(with_scene(&words, PENDULUM).status.code(), Some(0));
+    assert_eq!(table(&Folder(folder.0.join("masses"))), table(&whole));
 }
 
 #[test]

@@ -70,14 +70,7 @@ impl SweepError {
         match self {
             Self::Study(e) => e.is_input(),
             Self::Key(_) | Self::Axis(_) | Self::NoneBegins { .. } => true,
-            Self::Journal(e) => {
-                matches!(
-                    e,
-                    JournalError::Changed { .. }
-                        | JournalError::Damaged { .. }
-                        | JournalError::Missing { .. }
-                ) || matches!(e, JournalError::File(e) if e.is_place())
-            }
+            Self::Journal(e) => e.is_input(),
             Self::File(e) => e.is_place(),
             Self::Threads(_) | Self::Table(_) => false,
         }

@@ -58,7 +58,21 @@ impl Sweep<'_> {
             motion: None,
         }
     }
+
+    /// The row of a run that has ended its process twice.
+    pub(super) fn crashed(&self, run: u64) -> SweepRow {
+        SweepRow {
+            run,
+            varied: self.point(run),
+            status: SweepStatus::Crashed,
+            error: CRASHED.to_owned(),
+            motion: None,
+        }
+    }
 }
+
+/// What is known of a run that has ended its process.
+const CRASHED: &str = "the process ended twice while it made this run and no other";
 
 impl Begun<'_> {
     /// Moves it to its end, or until `each`, which is called with every written row, or `stop`,

@@ -1,47 +1,105 @@
 //! A part of a sweep.
 
+use std::fmt;
 use std::str::FromStr;
 
-/// Every n-th run of a sweep, beginning with run i: `i/n`, counted from 1. Neighbouring runs of the
-/// grid take similar times, so shards end at similar times.
+use report::sweep::Runs;
+
+/// The k-th of n parts of a sweep, each of consecutive runs: `k/n`, counted from 1. Parts differ by
+/// at most one run.
 ///
 /// ```
 /// use pfaff::sweep::Shard;
 ///
 /// let shard: Shard = "2/3".parse()?;
-/// assert_eq!((1..=7).filter(|run| shard.has(*run)).collect::<Vec<_>>(), [2, 5]);
+/// assert_eq!(shard.runs(8).map(|runs| runs.to_string()), Some("3-5".to_owned()));
 /// assert!("4/3".parse::<Shard>().is_err());
 /// # Ok::<(), pfaff::sweep::ShardError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    i: u64,
+    k: u64,
     n: u64,
 }
 
 /// A text that is not a shard.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{text}` is not i/n with 1 ≤ i ≤ n")]
+#[error("`{text}` is not k/n with 1 ≤ k ≤ n")]
 pub struct ShardError {
     text: String,
 }
 
+/// Largest number of parts that is guessed of the runs of a part.
+const PARTS_MAX: u64 = 100_000;
+
 impl Shard {
     /// All runs.
-    pub const WHOLE: Self = Self { i: 1, n: 1 };
+    pub const WHOLE: Self = Self { k: 1, n: 1 };
 
-    /// Whether a run (from 1) belongs to it.
-    #[must_use]
-    pub fn has(self, run: u64) -> bool {
-        run % self.n == self.i % self.n
+    /// The k-th of n parts.
+    ///
+    /// # Errors
+    /// If it is not 1 ≤ k ≤ n.
+    pub fn new(k: u64, n: u64) -> Result<Self, ShardError> {
+        if 1 <= k && k <= n {
+            Ok(Self { k, n })
+        } else {
+            let text = format!("{k}/{n}");
+            Err(ShardError { text })
+        }
     }
 
-    /// Name of its journal; shards may write into one directory at the same time.
-    pub(super) fn journal(self) -> String {
-        match self {
-            Self::WHOLE => "sweep".to_owned(),
-            Self { i, n } => format!("sweep-{i}-of-{n}"),
-        }
+    /// Which part it is.
+    #[must_use]
+    pub fn k(self) -> u64 {
+        self.k
+    }
+
+    /// How many parts there are.
+    #[must_use]
+    pub fn n(self) -> u64 {
+        self.n
+    }
+
+    /// Its runs of that many; `None` if there are more parts than runs, and none for this one.
+    #[must_use]
+    pub fn runs(self, all: u64) -> Option<Runs> {
+        // At most `all`, because k ≤ n.
+        let end = |k: u64| (u128::from(k) * u128::from(all) / u128::from(self.n)) as u64;
+        Runs::new(end(self.k - 1) + 1, end(self.k))
+    }
+
+    /// The number of parts of which all of these are some; `None` if they are all runs, if there
+    /// are none, or if they have been made for different numbers.
+    #[must_use]
+    pub fn number(all: u64, parts: &[Runs]) -> Option<u64> {
+        let size = parts.iter().map(|part| part.count()).min()?;
+        let is_part = |n: u64, part: &Runs| {
+            let k = (u128::from(part.last()) * u128::from(n)).div_ceil(u128::from(all));
+            Self::new(k as u64, n).is_ok_and(|shard| shard.runs(all) == Some(*part))
+        };
+        let least = (all / (size + 1)).max(2);
+        let most = (all / (size - 1).max(1) + 1).min(least + PARTS_MAX);
+        (least..=most).find(|n| parts.iter().all(|part| is_part(*n, part)))
+    }
+
+    /// Those of n parts that are these runs; `None` if they begin or end inside a part.
+    #[must_use]
+    pub fn of(runs: Runs, all: u64, n: u64) -> Option<Vec<Self>> {
+        let at = |run: u64| (u128::from(run) * u128::from(n)).div_ceil(u128::from(all)) as u64;
+        let shards: Vec<Self> = (at(runs.first())..=at(runs.last()))
+            .map(|k| Self::new(k, n))
+            .collect::<Result<_, _>>()
+            .ok()?;
+        let first = shards.first()?.runs(all)?.first();
+        let last = shards.last()?.runs(all)?.last();
+        ((first, last) == (runs.first(), runs.last())).then_some(shards)
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.k, self.n)
     }
 }
 
@@ -50,12 +108,50 @@ impl FromStr for Shard {
 
     fn from_str(text: &str) -> Result<Self, ShardError> {
         let read = || {
-            let (i, n) = text.split_once('/')?;
-            let (i, n) = (i.trim().parse().ok()?, n.trim().parse().ok()?);
-            (1 <= i && i <= n).then_some(Self { i, n })
+            let (k, n) = text.split_once('/')?;
+            Self::new(k.trim().parse().ok()?, n.trim().parse().ok()?).ok()
         };
         read().ok_or_else(|| ShardError {
             text: text.to_owned(),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Runs, Shard};
+
+    #[test]
+    fn shards_are_all_runs_once() {
+        for all in [1, 2, 7, 24, 1000] {
+            for n in [1, 2, 3, 7, 24, 200] {
+                let parts = (1..=n).map(|k| Shard::new(k, n).expect("a shard").runs(all));
+                let parts: Vec<Runs> = parts.flatten().collect();
+                let mut next = 1;
+                for part in &parts {
+                    assert_eq!(part.first(), next);
+                    assert!((all / n..=all / n + 1).contains(&part.count()));
+                    next = part.last() + 1;
+                }
+                assert_eq!(next, all + 1, "{all} in {n}");
+            }
+        }
+        assert_eq!(Shard::WHOLE.runs(9), Runs::new(1, 9));
+        // The number of all runs may be as large as there is.
+        let last = Shard::new(u64::MAX, u64::MAX).expect("a shard");
+        assert_eq!(last.runs(u64::MAX), Runs::new(u64::MAX, u64::MAX));
+    }
+
+    #[test]
+    fn missing_shards_are_named() {
+        let part = |k, n| Shard::new(k, n).expect("a shard").runs(1000).expect("some");
+        assert_eq!(Shard::number(1000, &[part(2, 7), part(5, 7)]), Some(7));
+        assert_eq!(Shard::number(1000, &[part(2, 7), part(5, 8)]), None);
+        assert_eq!(Shard::number(1000, &[]), None);
+        let hole = Runs::new(part(3, 7).first(), part(4, 7).last()).expect("some");
+        let shards = Shard::of(hole, 1000, 7).expect("whole ones");
+        let names: Vec<String> = shards.iter().map(Shard::to_string).collect();
+        assert_eq!(names, ["3/7", "4/7"]);
+        assert_eq!(Shard::of(part(3, 8), 1000, 7), None);
     }
 }

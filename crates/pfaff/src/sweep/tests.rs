@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use model::Registry;
 use report::{SweepDocument, SweepStatus};
 
-use super::{Shard, Sweep, SweepError, SweepProgress, SweepSettings, merge};
+use super::{Shard, Sweep, SweepError, SweepOutcome, SweepProgress, SweepSettings, Tables, merge};
 
 /// A point mass on a rod of length 1 m, which passes its lowest point at v = 10⁻⁴ m/s.
 const PENDULUM: &str = r#"
@@ -55,9 +55,17 @@ fn sweep<'r>(registry: &'r Registry, scene: &str, vary: &[&str]) -> Sweep<'r> {
 }
 
 fn run(sweep: &Sweep<'_>, folder: &Folder, shard: Shard, threads: usize) -> SweepDocument {
+    outcome(sweep, folder, shard, threads).document
+}
+
+fn outcome(sweep: &Sweep<'_>, folder: &Folder, shard: Shard, threads: usize) -> SweepOutcome {
     let settings = SweepSettings { shard, threads };
     let done = sweep.run_into(&folder.0, &settings, || false, |_| {});
     done.unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn shard(text: &str) -> Shard {
+    text.parse().expect("a shard")
 }
 
 /// Small oscillations: x(t) = v/ω·sin ωt with ω² = g/L, and the largest tension m·(g + v²/L) at the
@@ -151,27 +159,220 @@ fn threads_and_shards_leave_no_trace() {
     );
     run(&sweep, two, Shard::WHOLE, 2);
     assert_eq!(one.table(), two.table());
-    let shard = |text: &str| text.parse::<Shard>().expect("a shard");
     for text in ["2/3", "3/3"] {
-        assert!(run(&sweep, shards, shard(text), 2).partial);
+        let outcome = outcome(&sweep, shards, shard(text), 2);
+        let document = outcome.document;
+        assert_eq!((document.finished, document.partial), (7, false));
+        assert_eq!(outcome.tables, Tables::NotYet);
     }
     let document = run(&sweep, apart, shard("1/3"), 2);
-    assert_eq!((document.finished, document.partial), (7, true));
-    let document = merge(&[shards.0.clone(), apart.0.clone()], &merged.0).expect("one sweep");
+    assert_eq!((document.finished, document.runs), (6, 20));
+    let found = merge(&[shards.0.clone(), apart.0.clone()], &merged.0).expect("one sweep");
+    let document = found.document;
     assert_eq!((document.finished, document.partial), (20, false));
+    assert_eq!((document.repeated, found.shards), (0, Some(3)));
     assert_eq!(one.table(), merged.table());
+    let found = merge(&[&shards.0], &merged.0).expect("one sweep");
+    let missing: Vec<String> = found
+        .document
+        .missing
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    assert_eq!(
+        (missing.as_slice(), found.shards),
+        (&["1-6".to_owned()][..], Some(3))
+    );
     // The whole sweep in the directory of two shards makes the third part only.
     let mut begun = (0, 0);
     let settings = SweepSettings::default();
     let note = |progress: SweepProgress<'_>| match progress {
         SweepProgress::Begin { runs, finished } => begun = (runs, finished),
-        SweepProgress::Finished(row) => assert!(shard("1/3").has(row.run)),
+        SweepProgress::Finished(row) => assert!(row.run <= 6),
     };
     sweep
         .run_into(&shards.0, &settings, || false, note)
         .expect("continued");
-    assert_eq!(begun, (20, 13));
+    assert_eq!(begun, (20, 14));
     assert_eq!(one.table(), shards.table());
+}
+
+/// Whoever ends last finds all runs and writes the tables, and more shards than runs do no harm.
+#[test]
+fn the_last_shard_writes_the_tables() {
+    let registry = Registry::standard();
+    let sweep = sweep(&registry, PENDULUM, &["body.bob.mass=1:3:3"]);
+    let (folder, whole) = (Folder::new("last"), Folder::new("last-whole"));
+    let mut tables = 0;
+    for k in 1..=5 {
+        let shard = Shard::new(k, 5).expect("a shard");
+        let outcome = outcome(&sweep, &folder, shard, 1);
+        assert_eq!(
+            outcome.document.finished,
+            u64::from(outcome.document.shard.is_some())
+        );
+        assert!(!outcome.document.partial);
+        tables += usize::from(outcome.tables == Tables::Written);
+    }
+    assert_eq!(tables, 1);
+    run(&sweep, &whole, Shard::WHOLE, 1);
+    assert_eq!(folder.table(), whole.table());
+}
+
+/// Two processes that make the same shard at the same time, here two threads.
+#[test]
+fn the_same_shard_twice_at_once_is_harmless() {
+    let registry = Registry::standard();
+    let sweep = sweep(&registry, PENDULUM, &["body.bob.mass=1:40:40"]);
+    let (folder, whole) = (Folder::new("twice"), Folder::new("twice-whole"));
+    let settings = SweepSettings {
+        threads: 1,
+        ..SweepSettings::default()
+    };
+    // Both begin before one of them has finished anything.
+    let barrier = std::sync::Barrier::new(2);
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                let note = |progress: SweepProgress<'_>| {
+                    if matches!(progress, SweepProgress::Begin { .. }) {
+                        barrier.wait();
+                    }
+                };
+                let outcome = sweep.run_into(&folder.0, &settings, || false, note);
+                assert_eq!(outcome.expect("done").document.finished, 40);
+            });
+        }
+    });
+    run(&sweep, &whole, Shard::WHOLE, 2);
+    assert_eq!(folder.table(), whole.table());
+    let names: Vec<String> = fs::read_dir(folder.0.join("shards"))
+        .expect("begun")
+        .map(|entry| {
+            entry
+                .expect("readable")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    assert!(names.contains(&"01-40.rows".to_owned()), "{names:?}");
+    assert!(
+        names.iter().all(|name| !name.ends_with(".part")),
+        "{names:?}"
+    );
+}
+
+/// Runs are the same alone and in a group.
+#[test]
+fn groups_leave_no_trace() {
+    let registry = Registry::standard();
+    let sweep = sweep(&registry, PENDULUM, &["body.bob.mass=-1:8:10"]);
+    let alone: Vec<_> = (1..=10).map(|run| sweep.row(run)).collect();
+    for size in [1, 3, 10] {
+        let mut rows = Vec::new();
+        let runs: Vec<u64> = (1..=10).collect();
+        for group in runs.chunks(size) {
+            let mut sink = |row| {
+                rows.push(row);
+                Ok(())
+            };
+            sweep
+                .make(group, super::make::Keep::Rows, &|| false, &mut sink)
+                .expect("made");
+        }
+        for (a, mut b) in alone.iter().zip(rows) {
+            if let (Some(a), Some(b)) = (&a.motion, &mut b.motion) {
+                b.seconds = a.seconds;
+            }
+            // NaN are equal as texts.
+            assert_eq!(format!("{a:?}"), format!("{b:?}"));
+        }
+    }
+}
+
+/// Runs that end their process. The variable is read by the test alone.
+const FATAL: &str = "PFAFF_TEST_FATAL_RUNS";
+
+/// Is called before a run is made.
+pub(super) fn begins(run: u64) {
+    if let Ok(fatal) = std::env::var(FATAL)
+        && fatal.split(' ').any(|fatal| fatal == run.to_string())
+    {
+        std::process::abort();
+    }
+}
+
+const MASSES: &str = "body.bob.mass=1:60:60";
+
+/// A process of its own that makes a sweep, if a test has begun it.
+#[test]
+fn a_process_that_may_be_ended() {
+    if let (Ok(_), Ok(folder)) = (std::env::var(FATAL), std::env::var("PFAFF_TEST_FOLDER")) {
+        let registry = Registry::standard();
+        let settings = SweepSettings {
+            threads: 2,
+            ..SweepSettings::default()
+        };
+        let sweep = sweep(&registry, PENDULUM, &[MASSES]);
+        sweep
+            .run_into(folder.as_ref(), &settings, || false, |_| {})
+            .expect("made");
+    }
+}
+
+#[test]
+fn a_run_that_ends_its_process_twice_is_named() {
+    let registry = Registry::standard();
+    let (folder, whole) = (Folder::new("fatal"), Folder::new("fatal-whole"));
+    let mut deaths = 0;
+    loop {
+        let child = std::process::Command::new(std::env::current_exe().expect("known"))
+            .args(["--exact", "sweep::tests::a_process_that_may_be_ended"])
+            .env(FATAL, "7 45")
+            .env("PFAFF_TEST_FOLDER", &folder.0)
+            .output()
+            .expect("it begins");
+        if child.status.success() {
+            break;
+        }
+        deaths += 1;
+        assert!(deaths <= 6, "{child:?}");
+    }
+    // Twice each alone, and once each among others if not both at once.
+    assert!((5..=6).contains(&deaths), "{deaths}");
+    let sweep = sweep(&registry, PENDULUM, &[MASSES]);
+    let document = run(&sweep, &folder, Shard::WHOLE, 1);
+    assert_eq!(
+        (document.finished, document.crashed, document.done),
+        (60, 2, 58)
+    );
+    assert_eq!(document.repeated, 0);
+    let failures: Vec<_> = document
+        .failures
+        .iter()
+        .map(|f| (f.run, f.status.as_str()))
+        .collect();
+    assert_eq!(failures, [(7, "crashed"), (45, "crashed")]);
+    run(&sweep, &whole, Shard::WHOLE, 1);
+    let (found, expected) = (folder.table(), whole.table());
+    for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
+        assert_eq!(found == expected, ![7, 45].contains(&k), "{found:?}");
+    }
+    // What is known stays known.
+    let again = SweepSettings::default();
+    let note = |progress: SweepProgress<'_>| {
+        assert!(matches!(
+            progress,
+            SweepProgress::Begin {
+                runs: 60,
+                finished: 60
+            }
+        ));
+    };
+    sweep
+        .run_into(&folder.0, &again, || false, note)
+        .expect("nothing is left");
 }
 
 #[test]
@@ -196,7 +397,8 @@ fn an_interrupted_sweep_goes_on_where_it_was() {
         };
         let document = sweep
             .run_into(&folder.0, &settings, interrupted, note)
-            .expect("written");
+            .expect("written")
+            .document;
         assert_eq!(document.finished as usize, seen.len());
         assert_eq!(document.partial, limit == 4);
     }

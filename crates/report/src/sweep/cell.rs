@@ -1,5 +1,7 @@
 //! Typed values of a table: the same in a journal, in CSV and in Parquet.
 
+use std::fmt;
+
 use serde::{Serialize, Serializer};
 
 /// A column.
@@ -40,6 +42,16 @@ impl Cell {
         Self::Text(words.join(" "))
     }
 
+    /// Whether both are the same, bit by bit; all NaN are the same.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Number(a), Self::Number(b)) => {
+                a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
+            }
+            _ => self == other,
+        }
+    }
+
     /// Parses a written value, if it is of this type.
     pub(super) fn read(text: &str, kind: Kind) -> Option<Self> {
         match kind {
@@ -47,6 +59,17 @@ impl Cell {
             Kind::Count => text.parse().ok().map(|n| Self::Count(Some(n))),
             Kind::Number => text.parse().ok().map(Self::Number),
             Kind::Text => Some(Self::Text(text.to_owned())),
+        }
+    }
+}
+
+impl fmt::Display for Cell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Count(None) => f.write_str("unknown"),
+            Self::Count(Some(n)) => write!(f, "{n}"),
+            Self::Number(x) => write!(f, "{x:?}"),
+            Self::Text(text) => write!(f, "\"{text}\""),
         }
     }
 }

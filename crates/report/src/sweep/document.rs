@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Cell, Column, SweepPlan, SweepRows, SweepStatus};
+use super::{Cell, Column, Records, Runs, SweepStatus};
 
 /// Largest number of failed runs that are listed.
 const NAMED: usize = 10;
@@ -16,16 +16,24 @@ pub struct SweepDocument {
     pub vary: Vec<String>,
     /// Number of runs of the whole grid.
     pub runs: u64,
+    /// The runs of the shard that this is about; `None` for all runs.
+    pub shard: Option<Runs>,
     /// Number of runs that have a row.
     pub finished: u64,
     /// Whether some runs have no row.
     pub partial: bool,
+    /// Runs that have no row.
+    pub missing: Vec<Runs>,
+    /// Number of rows of runs that were made once more, which is harmless.
+    pub repeated: u64,
     /// Number of runs that reached their end.
     pub done: u64,
     /// Number of runs that stopped before it.
     pub stopped: u64,
     /// Number of runs that did not begin.
     pub refused: u64,
+    /// Number of runs during which their processes ended.
+    pub crashed: u64,
     /// The first runs that failed.
     pub failures: Vec<SweepFailure>,
     /// The largest energy balance of all runs; `None` if no run has one.
@@ -34,20 +42,41 @@ pub struct SweepDocument {
     pub max_energy_balance_run: Option<u64>,
 }
 
+/// The runs that a summary is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// All runs.
+    Whole,
+    /// Those of a shard, which has none if there are more shards than runs.
+    Shard(Option<Runs>),
+}
+
 /// A run that failed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SweepFailure {
     /// Its number, from 1.
     pub run: u64,
-    /// `stopped` or `refused`.
+    /// `stopped`, `refused` or `crashed`.
     pub status: String,
     /// Reason.
     pub error: String,
 }
 
 impl SweepDocument {
-    /// The summary of rows under these columns.
-    pub(super) fn new(plan: &SweepPlan, columns: &[Column], rows: &SweepRows) -> Self {
+    /// The summary of all runs, or of those of a shard.
+    #[must_use]
+    pub fn new(records: &Records, of: Extent) -> Self {
+        let Records {
+            plan,
+            rows,
+            repeated,
+            ..
+        } = records;
+        let columns: &[Column] = &plan.columns();
+        let asked = match of {
+            Extent::Whole => Runs::new(1, plan.runs),
+            Extent::Shard(runs) => runs,
+        };
         let place = |name: &str| {
             // Varied keys come first and may have any names.
             let behind = 1 + plan.keys.len();
@@ -74,16 +103,23 @@ impl SweepDocument {
                 worst = Some((*run, *x));
             }
         }
-        let finished = rows.len() as u64;
+        let missing = asked.map_or_else(Vec::new, |runs| records.missing(runs));
         Self {
             scene: plan.scene.clone(),
             vary: plan.vary.clone(),
             runs: plan.runs,
-            finished,
-            partial: finished < plan.runs,
+            shard: match of {
+                Extent::Whole => None,
+                Extent::Shard(runs) => runs,
+            },
+            finished: rows.len() as u64,
+            partial: !missing.is_empty(),
+            missing,
+            repeated: *repeated,
             done: count(SweepStatus::Done),
             stopped: count(SweepStatus::Stopped),
             refused: count(SweepStatus::Refused),
+            crashed: count(SweepStatus::Crashed),
             failures: failures
                 .take(NAMED)
                 .map(|(run, cells)| SweepFailure {

@@ -1,6 +1,5 @@
 //! A table as Parquet: counts are INT64 with nulls, numbers DOUBLE, texts UTF-8. The description of
-//! the sweep is in the metadata of the file, under `pfaff.sweep`, as in the first line of a
-//! journal.
+//! the sweep is in the metadata of the file, under `pfaff.sweep`.
 
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -13,7 +12,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
-use super::{Cell, Column, Kind, SweepPlan, SweepRows};
+use super::{Cell, Column, Kind, SweepPlan};
 use crate::tables::TableError;
 
 /// Key of the description in the metadata.
@@ -24,7 +23,7 @@ pub(super) fn write<W: Write + Send>(
     out: W,
     plan: &SweepPlan,
     columns: &[Column],
-    rows: &SweepRows,
+    rows: &[&[Cell]],
 ) -> Result<W, TableError> {
     table(out, plan, columns, rows).map_err(|e| TableError::Write {
         table: "sweep.parquet",
@@ -39,7 +38,7 @@ fn table<W: Write + Send>(
     out: W,
     plan: &SweepPlan,
     columns: &[Column],
-    rows: &SweepRows,
+    rows: &[&[Cell]],
 ) -> Result<W, ParquetError> {
     let fields = columns.iter().map(|c| field(c).map(Arc::new));
     let schema = Type::group_type_builder("sweep")
@@ -55,7 +54,7 @@ fn table<W: Write + Send>(
         let Some(mut writer) = group.next_column()? else {
             break;
         };
-        let cells = rows.values().filter_map(|cells| cells.get(k));
+        let cells = rows.iter().filter_map(|cells| cells.get(k));
         match columns[k].kind {
             Kind::Count => {
                 let counts: Vec<Option<i64>> = cells.map(count).collect();

@@ -11,6 +11,8 @@ pub enum SweepStatus {
     Stopped,
     /// It did not begin: with these numbers there is no mechanism, or no motion.
     Refused,
+    /// Its process ended twice while it made no other run.
+    Crashed,
 }
 
 impl SweepStatus {
@@ -21,6 +23,7 @@ impl SweepStatus {
             Self::Done => "done",
             Self::Stopped => "stopped",
             Self::Refused => "refused",
+            Self::Crashed => "crashed",
         }
     }
 }

@@ -1,12 +1,14 @@
-//! Journals survive damage to files; tables are the same after any interruption.
+//! Files survive damage; tables are the same after any interruption, whoever made the rows.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use super::line::line;
 use super::{
-    Cell, Extreme, Journal, JournalError, Journals, SweepMotion, SweepPlan, SweepRow, SweepStatus,
-    digest, write_sweep,
+    Extent, Extreme, JournalError, Records, Runs, Shards, SweepDocument, SweepMotion, SweepPlan,
+    SweepRow, SweepStatus, digest, write_sweep,
 };
+use crate::files::process::Process;
 use crate::files::{FileError, OutputDirectory};
 use crate::tables::TableError;
 
@@ -20,9 +22,42 @@ impl Folder {
         Self(path)
     }
 
-    fn journal(&self) -> PathBuf {
-        self.0.join("sweep.journal")
+    fn shards(&self) -> Shards {
+        Shards::open(&self.0, &plan()).expect("free")
     }
+
+    /// Names of the files with this ending.
+    fn names(&self, ending: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.0.join("shards")).expect("begun");
+        let names = entries.map(|e| {
+            e.expect("readable")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        });
+        let mut names: Vec<String> = names.filter(|name| name.ends_with(ending)).collect();
+        names.sort();
+        names
+    }
+
+    /// The only journal.
+    fn journal(&self) -> PathBuf {
+        let names = self.names(".journal");
+        assert_eq!(names.len(), 1, "{names:?}");
+        self.0.join("shards").join(&names[0])
+    }
+
+    fn read(&self) -> Records {
+        self.shards().read(runs(1, 4)).expect("whole")
+    }
+}
+
+fn runs(first: u64, last: u64) -> Runs {
+    Runs::new(first, last).expect("some")
+}
+
+fn numbers(records: &Records) -> Vec<u64> {
+    records.rows.keys().copied().collect()
 }
 
 impl Drop for Folder {
@@ -87,12 +122,37 @@ fn refused(run: u64) -> SweepRow {
     }
 }
 
-fn fill(folder: &Path, name: &str, rows: &[SweepRow]) {
-    let mut journal = Journal::open(folder, name, &plan()).expect("free");
+/// An attempt that ends by order.
+fn fill(folder: &Folder, of: Runs, rows: &[SweepRow]) {
+    let mut journal = folder.shards().begin(of).expect("free");
     for row in rows {
         journal.append(row).expect("writable");
     }
     journal.finish().expect("writable");
+}
+
+/// A journal of a process that no longer runs: the lines of one that does, with another head.
+fn left_by(host: &str, folder: &Folder, name: &str, of: Runs, lines: &[&str]) {
+    let own = Process::own();
+    let host = if host.is_empty() { &own.host } else { host };
+    let head = format!(
+        r#"{{"plan":"{}","runs":[{},{}],"host":"{host}","pid":{},"born":{}}}"#,
+        folder.shards().mark,
+        of.first(),
+        of.last(),
+        own.pid,
+        // No process of that number began then.
+        own.born + 1,
+    );
+    let mut bytes = line(head.as_bytes());
+    lines
+        .iter()
+        .for_each(|text| bytes.extend(line(text.as_bytes())));
+    let path = folder
+        .0
+        .join("shards")
+        .join(format!("{}.{name}.journal", of.name(4)));
+    fs::write(path, bytes).expect("writable");
 }
 
 #[derive(Debug)]
@@ -107,97 +167,103 @@ impl From<TableError> for Any {
         Self(e.to_string())
     }
 }
-impl From<JournalError> for Any {
-    fn from(e: JournalError) -> Self {
-        Self(e.to_string())
-    }
-}
 
 #[test]
 fn a_row_comes_back_with_its_bits() {
     let folder = Folder::new("bits");
-    fill(&folder.0, "sweep", &[row(2), refused(1)]);
-    let journals = Journals::read(&[&folder.0]).expect("whole");
-    assert_eq!(journals.plan, plan());
-    assert_eq!(journals.rows.keys().copied().collect::<Vec<_>>(), [1, 2]);
-    for (expected, found) in [
-        (refused(1), &journals.rows[&1]),
-        (row(2), &journals.rows[&2]),
-    ] {
-        let expected = plan().cells(&expected);
-        assert_eq!(found.len(), plan().columns().len());
-        for (a, b) in expected.iter().zip(found) {
-            match (a, b) {
-                (Cell::Number(a), Cell::Number(b)) if a.is_nan() => assert!(b.is_nan()),
-                (Cell::Number(a), Cell::Number(b)) => assert_eq!(a.to_bits(), b.to_bits()),
-                _ => assert_eq!(a, b),
+    fill(&folder, runs(1, 4), &[row(2), refused(1)]);
+    let unsealed = folder.read();
+    folder
+        .shards()
+        .seal(runs(1, 2), &unsealed)
+        .expect("writable");
+    folder.shards().tidy(runs(1, 4)).expect("writable");
+    // The journal is about more runs.
+    assert_eq!(folder.names(".journal").len(), 1);
+    fs::remove_file(folder.journal()).expect("there");
+    let sealed = folder.read();
+    assert_eq!(sealed.sealed, [runs(1, 2)]);
+    for records in [unsealed, sealed] {
+        assert_eq!(records.plan, plan());
+        assert_eq!((numbers(&records), records.repeated), (vec![1, 2], 0));
+        assert_eq!(records.missing(runs(1, 4)), [runs(3, 4)]);
+        for (expected, found) in [(refused(1), &records.rows[&1]), (row(2), &records.rows[&2])] {
+            let expected = plan().cells(&expected);
+            assert_eq!(found.len(), plan().columns().len());
+            for (a, b) in expected.iter().zip(found) {
+                assert!(a.is_same(b), "{a} {b}");
             }
         }
     }
 }
 
-/// A journal that was cut off anywhere keeps the rows of its complete lines and is continued with
+/// A journal that was cut off anywhere keeps the rows of its complete lines; another attempt makes
 /// the others.
 #[test]
 fn a_journal_may_be_cut_at_any_byte() {
     let folder = Folder::new("cut");
-    fill(&folder.0, "sweep", &[row(1), row(2), row(3)]);
-    let whole = fs::read(folder.journal()).expect("readable");
+    fill(&folder, runs(1, 4), &[row(1), row(2), row(3)]);
+    let path = folder.journal();
+    let whole = fs::read(&path).expect("readable");
     for length in 0..whole.len() {
-        fs::write(folder.journal(), &whole[..length]).expect("writable");
+        fs::write(&path, &whole[..length]).expect("writable");
         let lines = whole[..length].iter().filter(|b| **b == b'\n').count();
-        let rows = Journals::read(&[&folder.0]).map_or(0, |j| j.rows.len());
-        assert_eq!(rows, lines.saturating_sub(1), "cut at {length}");
-        if length % 37 == 0 || length + 5 > whole.len() {
-            let rest = [row(1), row(2), row(3)];
-            fill(&folder.0, "sweep", &rest[rows..]);
-            assert!(
-                fs::read(folder.journal()).expect("readable") == whole,
-                "cut at {length}"
-            );
-        }
+        let expected: Vec<u64> = (1..lines.min(4) as u64).collect();
+        assert_eq!(numbers(&folder.read()), expected, "cut at {length}");
     }
+    fill(&folder, runs(1, 4), &[row(3), row(4)]);
+    assert_eq!(numbers(&folder.read()), [1, 2, 3, 4]);
 }
 
 #[test]
 fn damaged_lines_are_made_again() {
     let folder = Folder::new("damaged");
-    fill(&folder.0, "sweep", &[row(1), row(2), row(3)]);
-    let whole = fs::read(folder.journal()).expect("readable");
+    fill(&folder, runs(1, 4), &[row(1), row(2), row(3)]);
+    let path = folder.journal();
+    let whole = fs::read(&path).expect("readable");
     let ends: Vec<usize> = (0..whole.len()).filter(|k| whole[*k] == b'\n').collect();
     // One digit of the second row is changed.
     let mut bytes = whole.clone();
     bytes[ends[1] + 40] ^= 1;
     // The possible result of a power failure: zeros after the old end of a file.
     bytes.extend([0; 100]);
-    fs::write(folder.journal(), &bytes).expect("writable");
-    let rows = Journals::read(&[&folder.0]).expect("readable").rows;
-    assert_eq!(rows.keys().copied().collect::<Vec<_>>(), [1, 3]);
-    fill(&folder.0, "sweep", &[row(2)]);
-    let rows = Journals::read(&[&folder.0]).expect("readable").rows;
-    assert_eq!(rows.len(), 3);
+    fs::write(&path, &bytes).expect("writable");
+    assert_eq!(numbers(&folder.read()), [1, 3]);
+    // A finished shard that is damaged is not taken for finished.
+    fs::write(&path, &whole).expect("writable");
+    let shards = folder.shards();
+    shards.seal(runs(1, 3), &folder.read()).expect("writable");
+    fs::remove_file(&path).expect("there");
+    assert_eq!(folder.read().sealed, [runs(1, 3)]);
+    let sealed = folder.0.join("shards/1-3.rows");
+    let mut bytes = fs::read(&sealed).expect("readable");
+    let end = bytes.len() - 40;
+    bytes[end] ^= 1;
+    fs::write(&sealed, &bytes).expect("writable");
+    let records = folder.read();
+    assert_eq!((numbers(&records), records.sealed), (vec![1, 2], vec![]));
     // After a damaged first line, the meaning of the rows is unknown.
     bytes[30] ^= 1;
     for bytes in [bytes.as_slice(), b"# somebody's diary\n"] {
-        fs::write(folder.journal(), bytes).expect("writable");
-        for error in [
-            Journal::open(&folder.0, "sweep", &plan()).err(),
-            Journals::read(&[&folder.0]).err(),
-        ] {
-            assert!(
-                matches!(error, Some(JournalError::Damaged { .. })),
-                "{error:?}"
-            );
-        }
-        assert_eq!(fs::read(folder.journal()).expect("readable"), bytes);
+        fs::write(&sealed, bytes).expect("writable");
+        let error = shards.read(runs(1, 4)).expect_err("damaged");
+        assert!(matches!(error, JournalError::Damaged { .. }), "{error}");
+    }
+    fs::remove_file(&sealed).expect("there");
+    fs::write(folder.0.join("shards/plan"), b"").expect("writable");
+    for error in [
+        Shards::open(&folder.0, &plan()).expect_err("damaged"),
+        Records::merged(&[&folder.0]).expect_err("damaged"),
+    ] {
+        assert!(matches!(error, JournalError::Damaged { .. }), "{error}");
     }
 }
 
 #[test]
 fn another_sweep_is_refused_by_name() {
     let folder = Folder::new("changed");
-    fill(&folder.0, "sweep", &[row(1)]);
-    let before = fs::read(folder.journal()).expect("readable");
+    fill(&folder, runs(1, 4), &[row(1)]);
+    let before = folder.names("");
     for (other, what) in [
         (
             SweepPlan {
@@ -235,32 +301,210 @@ fn another_sweep_is_refused_by_name() {
             "what the rows have",
         ),
     ] {
-        let error = Journal::open(&folder.0, "sweep", &other).expect_err("another sweep");
+        let error = Shards::open(&folder.0, &other).expect_err("another sweep");
         assert!(error.to_string().contains(what), "{error}");
-        assert_eq!(fs::read(folder.journal()).expect("readable"), before);
+        assert_eq!(folder.names(""), before);
     }
-    // Another journal cannot begin in the same directory either.
+    // A file of another sweep that somebody has put there.
+    let (other, name) = (Folder::new("changed-too"), folder.journal());
     let beside = SweepPlan { runs: 5, ..plan() };
-    assert!(Journal::open(&folder.0, "sweep-1-of-2", &beside).is_err());
-    assert!(!folder.0.join("sweep-1-of-2.journal").exists());
-    let _held = Journal::open(&folder.0, "sweep", &plan()).expect("free");
-    let error = Journal::open(&folder.0, "sweep", &plan()).expect_err("held");
-    assert!(matches!(error, JournalError::Busy { .. }), "{error}");
+    let shards = Shards::open(&other.0, &beside).expect("free");
+    shards
+        .begin(runs(1, 4))
+        .expect("free")
+        .finish()
+        .expect("writable");
+    fs::copy(other.journal(), name).expect("writable");
+    let error = folder.shards().read(runs(1, 4)).expect_err("another sweep");
+    assert!(
+        error.to_string().contains("the digest of its plan"),
+        "{error}"
+    );
+    let error = Records::merged(&[&other.0, &folder.0]).expect_err("another sweep");
+    assert!(matches!(error, JournalError::Changed { .. }), "{error}");
     let empty = Folder::new("empty");
-    let error = Journals::read(&[&folder.0, &empty.0]).expect_err("nothing there");
+    let error = Records::merged(&[&empty.0]).expect_err("nothing there");
     assert!(matches!(error, JournalError::Missing { .. }), "{error}");
+}
+
+/// Twice the same run: once more is told, a copy is none, and a difference is refused by its name.
+#[test]
+fn rows_of_one_run_must_agree() {
+    let [one, two, three] = ["agree", "agree-too", "agree-not"].map(Folder::new);
+    fill(&one, runs(1, 4), &[row(1), row(2)]);
+    let slower = |run: u64| {
+        let mut row = row(run);
+        row.motion.as_mut().expect("it moved").seconds = 0.5;
+        row
+    };
+    fill(&two, runs(2, 3), &[slower(2), row(3)]);
+    let merged = Records::merged(&[&one.0, &two.0]).expect("they agree");
+    assert_eq!((numbers(&merged), merged.repeated), (vec![1, 2, 3], 1));
+    let merged = Records::merged(&[&one.0, &one.0]).expect("they agree");
+    assert_eq!((numbers(&merged), merged.repeated), (vec![1, 2], 0));
+    let other = |change: fn(&mut SweepMotion)| {
+        let mut row = row(2);
+        change(row.motion.as_mut().expect("it moved"));
+        row
+    };
+    for (row, what) in [
+        (
+            other(|m| m.state[0] = 0.3),
+            "`bob.x` is 0.30000000000000004 in",
+        ),
+        (
+            other(|m| m.start_correction = 0.0),
+            "`start_correction` is -0.0 in",
+        ),
+        (other(|m| m.steps = 21), "`steps` is 20 in"),
+        (refused(2), "`status` is \"done\" in"),
+    ] {
+        let _ = fs::remove_dir_all(&three.0);
+        fill(&three, runs(1, 4), &[row]);
+        let error = Records::merged(&[&one.0, &three.0]).expect_err("they differ");
+        assert!(
+            matches!(&error, JournalError::Differs(d) if d.run == 2),
+            "{error}"
+        );
+        assert!(error.to_string().contains(what), "{error}");
+        assert!(
+            error
+                .to_string()
+                .contains(&three.journal().display().to_string()),
+            "{error}"
+        );
+    }
+    // A machine on which a run ended its process, and one on which it did not.
+    let crashed = SweepRow {
+        status: SweepStatus::Crashed,
+        ..refused(2)
+    };
+    let _ = fs::remove_dir_all(&three.0);
+    fill(&three, runs(1, 4), &[crashed, row(4)]);
+    for order in [[&one.0, &three.0], [&three.0, &one.0]] {
+        let merged = Records::merged(&order).expect("they agree");
+        assert_eq!((numbers(&merged), merged.repeated), (vec![1, 2, 4], 1));
+        let cells = plan().cells(&row(2));
+        assert!(
+            merged.rows[&2]
+                .iter()
+                .zip(&cells)
+                .all(|(a, b)| a.is_same(b))
+        );
+    }
+}
+
+/// A process that ended during runs makes them suspect, unless it left by order, still runs, or has
+/// finished them. That of another machine is asked for again only if it is gone.
+#[test]
+fn only_an_end_without_a_word_makes_runs_suspect() {
+    let folder = Folder::new("suspects");
+    let suspects = |of: Runs| {
+        let records = folder.shards().read(of).expect("whole");
+        records.suspects.into_iter().collect::<Vec<_>>()
+    };
+    let mut running = folder.shards().begin(runs(1, 4)).expect("free");
+    running.begin(&[1, 2]).expect("writable");
+    assert_eq!(suspects(runs(1, 4)), []);
+    running.finish().expect("writable");
+    assert_eq!(suspects(runs(1, 4)), []);
+    // As a panic or an error leaves it.
+    let mut dropped = folder.shards().begin(runs(1, 4)).expect("free");
+    dropped.begin(&[1, 2]).expect("writable");
+    drop(dropped);
+    assert_eq!(suspects(runs(1, 4)), []);
+    // As a process leaves it that is ended by order, whatever its threads do.
+    let mut ended = folder.shards().begin(runs(1, 4)).expect("free");
+    ended.begin_alone(3).expect("writable");
+    super::end_attempts(&folder.0);
+    let bytes = fs::read_dir(folder.0.join("shards"))
+        .expect("begun")
+        .count();
+    std::mem::forget(ended);
+    assert_eq!((suspects(runs(1, 4)), bytes), (vec![], 4));
+
+    if Process::own().born == 0 {
+        return;
+    }
+    left_by(
+        "",
+        &folder,
+        "a",
+        runs(1, 4),
+        &["begin 1 2 3", "begin 4", "end"],
+    );
+    assert_eq!(suspects(runs(1, 4)), []);
+    left_by("", &folder, "b", runs(1, 4), &["begin 1 2 3", "begin 4"]);
+    assert_eq!(suspects(runs(1, 4)).len(), 4);
+    let row = String::from_utf8(super::line::record(&plan().cells(&row(2))).expect("fits"));
+    let row = row.expect("UTF-8");
+    left_by(
+        "",
+        &folder,
+        "c",
+        runs(1, 4),
+        &["alone 1", "begin 2 3", &row],
+    );
+    assert_eq!(suspects(runs(1, 4)), [(1, 1), (3, 0), (4, 0)]);
+    left_by("elsewhere", &folder, "d", runs(3, 4), &["alone 3"]);
+    assert_eq!(suspects(runs(1, 4)), [(1, 1), (3, 0), (4, 0)]);
+    let asked = suspects(runs(3, 4));
+    assert!(
+        asked.contains(&(3, 1)) && asked.contains(&(4, 0)),
+        "{asked:?}"
+    );
+    left_by("", &folder, "e", runs(1, 4), &["alone 1"]);
+    assert_eq!(suspects(runs(1, 4))[0], (1, 2));
+}
+
+/// Journals go when their runs are in finished shards, but not those of processes that still run.
+#[test]
+fn finished_shards_take_the_place_of_journals() {
+    let folder = Folder::new("tidy");
+    let shards = folder.shards();
+    fill(&folder, runs(1, 2), &[row(1), row(2)]);
+    fill(&folder, runs(1, 4), &[row(3)]);
+    let mut running = shards.begin(runs(3, 4)).expect("free");
+    running.append(&row(4)).expect("writable");
+    shards.seal(runs(1, 2), &folder.read()).expect("writable");
+    shards.tidy(runs(1, 2)).expect("writable");
+    assert_eq!(folder.names(".journal").len(), 2);
+    shards.seal(runs(3, 4), &folder.read()).expect("writable");
+    shards.tidy(runs(1, 4)).expect("writable");
+    assert_eq!(folder.names(".journal").len(), 1);
+    running.finish().expect("writable");
+    shards.tidy(runs(1, 4)).expect("writable");
+    assert_eq!(folder.names(".journal").len(), 0);
+    let records = folder.read();
+    assert_eq!((numbers(&records), records.repeated), (vec![1, 2, 3, 4], 0));
+    assert_eq!(shards.sealed().expect("readable"), [runs(1, 2), runs(3, 4)]);
+    let parquet = folder.names(".parquet");
+    if cfg!(feature = "parquet") {
+        assert_eq!(parquet, ["1-2.parquet", "3-4.parquet"]);
+    }
+    // The bytes of a shard are those of its rows, whoever writes it.
+    let other = Folder::new("tidy-too");
+    fill(&other, runs(1, 4), &[row(4), row(3)]);
+    let records = other.read();
+    other.shards().seal(runs(3, 4), &records).expect("writable");
+    let bytes = |folder: &Folder| fs::read(folder.0.join("shards/3-4.rows")).expect("there");
+    assert!(bytes(&folder) == bytes(&other));
+    assert_eq!(other.names(".part").len(), 0);
 }
 
 #[test]
 fn tables_do_not_depend_on_who_made_the_rows() {
     let (one, two) = (Folder::new("one"), Folder::new("two"));
-    fill(&one.0, "sweep", &[row(1), refused(2), row(3), row(4)]);
-    fill(&two.0, "sweep-2-of-2", &[row(4), refused(2)]);
-    fill(&two.0, "sweep-1-of-2", &[row(3), row(1), row(4)]);
+    fill(&one, runs(1, 4), &[row(1), refused(2), row(3), row(4)]);
+    fill(&two, runs(3, 4), &[row(4), row(3)]);
+    two.shards()
+        .seal(runs(3, 4), &two.read())
+        .expect("writable");
+    fill(&two, runs(1, 4), &[refused(2), row(1), row(4)]);
     let tables = |folder: &Folder| {
         let directory = OutputDirectory::create(&folder.0).expect("writable");
-        let read = || Journals::read(&[&folder.0]).map_err(Any::from);
-        let document = write_sweep(&directory, read).expect("writable");
+        let document: SweepDocument =
+            write_sweep::<Any>(&directory, &folder.read()).expect("writable");
         let read = |name: &str| fs::read(folder.0.join(name)).expect("written");
         let mut files = vec![read("sweep.csv"), read("summary.json")];
         if cfg!(feature = "parquet") {
@@ -302,6 +546,24 @@ fn tables_do_not_depend_on_who_made_the_rows() {
     assert!(lines[2].starts_with(
         "2,0.6666666666666666,refused,\"mass is -1, need \"\"≥ 0\"\"\",,NaN,,,,,,,,,,NaN,"
     ));
+}
+
+/// A summary tells what is missing.
+#[test]
+fn gaps_are_told_as_runs() {
+    let folder = Folder::new("gaps");
+    fill(&folder, runs(1, 4), &[row(3)]);
+    let document = SweepDocument::new(&folder.read(), Extent::Whole);
+    assert_eq!(document.missing, [runs(1, 2), runs(4, 4)]);
+    assert!(document.partial && document.shard.is_none());
+    let shard = folder.shards().read(runs(3, 3)).expect("whole");
+    let document = SweepDocument::new(&shard, Extent::Shard(Runs::new(3, 3)));
+    assert_eq!(
+        (document.runs, document.finished, document.partial),
+        (4, 1, false)
+    );
+    let text = serde_json::to_value(&document).expect("JSON");
+    assert_eq!(text["shard"], serde_json::json!([3, 3]));
 }
 
 #[test]

@@ -1,0 +1,179 @@
+//! An attempt of this process to make the runs of a shard, on several threads, with a journal.
+
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use dynamics::Stop;
+use report::sweep::{Journal, Records, Runs};
+use report::{SweepRow, SweepStatus};
+
+use super::make::{Keep, TOGETHER};
+use super::{Sweep, SweepError, SweepProgress, gate, run};
+
+/// A run is the cause if its process has ended so often while it made no other run. Once may be an
+/// accident, or somebody who was impatient.
+const PROOF: u64 = 2;
+
+/// An attempt.
+pub(super) struct Attempt<'a, P> {
+    sweep: &'a Sweep<'a>,
+    keep: Keep<'a>,
+    interrupted: &'a Stop<'a>,
+    /// Whether a thread has met an error.
+    fails: AtomicBool,
+    ledger: Mutex<Ledger<P>>,
+}
+
+/// What the threads of an attempt share.
+struct Ledger<P> {
+    journal: Journal,
+    progress: P,
+    /// Whether some run could begin.
+    has_begun: bool,
+}
+
+impl<'a, P: FnMut(SweepProgress<'_>) + Send> Attempt<'a, P> {
+    pub(super) fn new(
+        sweep: &'a Sweep<'a>,
+        keep: Keep<'a>,
+        interrupted: &'a Stop<'a>,
+        journal: Journal,
+        progress: P,
+    ) -> Self {
+        Self {
+            sweep,
+            keep,
+            interrupted,
+            fails: AtomicBool::new(false),
+            ledger: Mutex::new(Ledger {
+                journal,
+                progress,
+                has_begun: false,
+            }),
+        }
+    }
+
+    /// The journal, after the attempt.
+    pub(super) fn into_journal(self) -> Journal {
+        let ledger = self.ledger.into_inner();
+        ledger.unwrap_or_else(PoisonError::into_inner).journal
+    }
+
+    /// Whether one of the runs that were made could begin.
+    pub(super) fn has_begun(&self) -> bool {
+        self.with(|ledger| ledger.has_begun)
+    }
+
+    fn with<T>(&self, act: impl FnOnce(&mut Ledger<P>) -> T) -> T {
+        // A thread that panicked has written a whole line or none.
+        act(&mut self.ledger.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn ends(&self) -> bool {
+        self.fails.load(Ordering::Relaxed) || (self.interrupted)()
+    }
+
+    /// Makes the pending runs: first those that may have ended a process, alone, then the others
+    /// on several threads.
+    pub(super) fn make(
+        &self,
+        known: &Records,
+        pending: &[Runs],
+        threads: usize,
+    ) -> Result<(), SweepError> {
+        let pending = pending.iter().flat_map(|runs| runs.first()..=runs.last());
+        let (suspects, others): (Vec<u64>, Vec<u64>) =
+            pending.partition(|run| known.suspects.contains_key(run));
+        // More threads than runs would be idle.
+        let threads = NonZeroUsize::new(threads.min(others.len().max(1)));
+        let pool = crate::pool(threads).map_err(SweepError::Threads)?;
+        pool.install(|| self.make_alone(known, &suspects))?;
+        let n = pool.current_num_threads().max(1);
+        // Small groups if there are few runs, so that threads end at the same time.
+        let size = others.len().div_ceil(4 * n).clamp(1, TOGETHER);
+        let groups: Vec<&[u64]> = others.chunks(size).collect();
+        let next = AtomicUsize::new(0);
+        let ended = pool.broadcast(|_| {
+            let ended = self.make_groups(&groups, &next);
+            if ended.is_err() {
+                self.fails.store(true, Ordering::Relaxed);
+            }
+            ended
+        });
+        ended.into_iter().collect()
+    }
+
+    fn make_groups(&self, groups: &[&[u64]], next: &AtomicUsize) -> Result<(), SweepError> {
+        while let Some(group) = groups.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let Some(_passed) = gate::beside_others(&|| self.ends()) else {
+                break;
+            };
+            if self.ends() {
+                break;
+            }
+            self.with(|ledger| ledger.journal.begin(group))?;
+            self.make_group(group)?;
+        }
+        Ok(())
+    }
+
+    fn make_alone(&self, known: &Records, suspects: &[u64]) -> Result<(), SweepError> {
+        if suspects.is_empty() {
+            return Ok(());
+        }
+        let Some(_passed) = gate::alone(&|| self.ends()) else {
+            return Ok(());
+        };
+        for run in suspects {
+            if known.suspects.get(run).is_some_and(|ends| *ends >= PROOF) {
+                self.finished(&self.sweep.crashed(*run))?;
+            } else if self.ends() {
+                break;
+            } else {
+                self.with(|ledger| ledger.journal.begin_alone(*run))?;
+                self.make_group(&[*run])?;
+            }
+        }
+        Ok(())
+    }
+
+    fn make_group(&self, runs: &[u64]) -> Result<(), SweepError> {
+        let stop = || self.ends();
+        let mut sink = |row: SweepRow| self.finished(&row);
+        self.sweep.make(runs, self.keep, &stop, &mut sink)
+    }
+
+    fn finished(&self, row: &SweepRow) -> Result<(), SweepError> {
+        self.with(|ledger| {
+            ledger.journal.append(row)?;
+            ledger.has_begun |= row.status != SweepStatus::Refused;
+            (ledger.progress)(SweepProgress::Finished(row));
+            Ok(())
+        })
+    }
+
+    /// The error of a sweep of which no run can begin, after those that were made could not. `None`
+    /// if one can, or if that is not known because a run may end the process.
+    pub(super) fn none_begins(
+        &self,
+        made: Runs,
+        known: &Records,
+    ) -> Result<Option<SweepError>, SweepError> {
+        let sweep = self.sweep;
+        for run in (1..=sweep.runs()).filter(|run| !made.has(*run)) {
+            if known.suspects.contains_key(&run) {
+                return Ok(None);
+            }
+            self.with(|ledger| ledger.journal.begin(&[run]))?;
+            if self.ends() || sweep.begin(run).is_ok() {
+                return Ok(None);
+            }
+        }
+        Ok(sweep.begin(1).err().map(|error| SweepError::NoneBegins {
+            runs: sweep.runs(),
+            values: sweep.values(1),
+            reason: run::reason(&error),
+        }))
+    }
+}

@@ -1,0 +1,151 @@
+//! The process that writes a file, and whether it still runs. No lock is needed for that: locks are
+//! not to be relied on in file systems of networks.
+
+use std::fs;
+
+use serde::{Deserialize, Serialize};
+
+/// A process of a machine.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Process {
+    /// Name of the machine.
+    pub(crate) host: String,
+    /// Its number.
+    pub(crate) pid: u32,
+    /// When it began, in a unit of the machine, because numbers are used again; 0 if that is not
+    /// known.
+    pub(crate) born: u64,
+}
+
+/// Whether a process runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Life {
+    Runs,
+    Gone,
+    /// It is on another machine, or the system does not tell.
+    Unknown,
+}
+
+impl Process {
+    /// This process.
+    pub(crate) fn own() -> Self {
+        let pid = std::process::id();
+        let born = Stat::of(pid).map_or(0, |stat| stat.born);
+        Self {
+            host: host(),
+            pid,
+            born,
+        }
+    }
+
+    pub(crate) fn life(&self) -> Life {
+        let own = Self::own();
+        if *self == own {
+            return Life::Runs;
+        }
+        // A machine that cannot tell this of itself cannot tell it of others.
+        if self.host != own.host || own.born == 0 || self.born == 0 {
+            return Life::Unknown;
+        }
+        match Stat::of(self.pid) {
+            Some(stat) if stat.born == self.born && !stat.has_ended => Life::Runs,
+            _ => Life::Gone,
+        }
+    }
+
+    /// As a part of a file name.
+    pub(crate) fn name(&self) -> String {
+        format!("{}-{}", self.host, self.pid)
+    }
+}
+
+/// Name of this machine, of letters, digits and hyphens.
+fn host() -> String {
+    let known = fs::read_to_string("/proc/sys/kernel/hostname").ok();
+    let named = || {
+        ["HOSTNAME", "COMPUTERNAME"]
+            .into_iter()
+            .find_map(|key| std::env::var(key).ok())
+    };
+    let name = known.or_else(named).unwrap_or_default();
+    let plain = |c: &char| c.is_ascii_alphanumeric() || *c == '-';
+    let name: String = name.trim().chars().filter(plain).take(40).collect();
+    if name.is_empty() {
+        "machine".to_owned()
+    } else {
+        name
+    }
+}
+
+/// What Linux tells of a process in `/proc/PID/stat`.
+struct Stat {
+    /// Ticks of the machine at its start.
+    born: u64,
+    /// Whether it only waits for its parent to notice its end.
+    has_ended: bool,
+}
+
+impl Stat {
+    fn of(pid: u32) -> Option<Self> {
+        let text = fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
+        // The second field is a name in brackets, which may have any characters.
+        let (_, fields) = text.rsplit_once(')')?;
+        let mut fields = fields.split_whitespace();
+        let state = fields.next()?;
+        Some(Self {
+            // Fields 3 and 22 of proc(5).
+            born: fields.nth(18)?.parse().ok()?,
+            has_ended: matches!(state, "Z" | "X" | "x"),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Life, Process};
+
+    #[test]
+    fn only_a_process_of_this_machine_is_known_to_be_gone() {
+        let own = Process::own();
+        assert_eq!(own.life(), Life::Runs);
+        let elsewhere = Process {
+            host: "elsewhere".to_owned(),
+            ..own.clone()
+        };
+        assert_eq!(elsewhere.life(), Life::Unknown);
+        if own.born == 0 {
+            return;
+        }
+        // Another process that had this number.
+        assert_eq!(
+            Process {
+                born: own.born - 1,
+                ..own.clone()
+            }
+            .life(),
+            Life::Gone
+        );
+        #[cfg(target_os = "linux")]
+        {
+            let mut child = std::process::Command::new("sleep")
+                .arg("60")
+                .spawn()
+                .expect("starts");
+            let born = super::Stat::of(child.id()).expect("it runs").born;
+            let process = Process {
+                pid: child.id(),
+                born,
+                ..own
+            };
+            assert_eq!(process.life(), Life::Runs);
+            child.kill().expect("it runs");
+            // Ended, whether or not its parent has noticed.
+            while !super::Stat::of(child.id()).is_none_or(|stat| stat.has_ended) {
+                std::thread::yield_now();
+            }
+            assert_eq!(process.life(), Life::Gone);
+            child.wait().expect("it ended");
+            assert_eq!(process.life(), Life::Gone);
+        }
+    }
+}

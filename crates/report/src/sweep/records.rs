@@ -1,0 +1,195 @@
+//! What is known of the runs of a sweep, gathered from finished shards and journals.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::error::{Difference, same};
+use super::{Cell, JournalError, Runs, Shards, SweepPlan, SweepRows, SweepStatus};
+
+/// What is known of some runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Records {
+    /// The description of the sweep.
+    pub plan: SweepPlan,
+    /// The finished runs.
+    pub rows: SweepRows,
+    /// How many more rows of these runs there are: runs that were made twice.
+    pub repeated: u64,
+    /// Finished shards.
+    pub sealed: Vec<Runs>,
+    /// Runs without a row that were begun by processes that ended during them, with how often that
+    /// was while the process made no other run.
+    pub suspects: BTreeMap<u64, u64>,
+}
+
+impl Records {
+    /// Nothing is known.
+    #[must_use]
+    pub fn none(plan: &SweepPlan) -> Self {
+        Gathered::new(plan.clone()).records()
+    }
+
+    /// Whether some of the runs could begin.
+    #[must_use]
+    pub fn has_begun(&self) -> bool {
+        let refused = Cell::Text(SweepStatus::Refused.name().to_owned());
+        let status = Columns::of(&self.plan).status;
+        let mut rows = self.rows.values();
+        rows.any(|cells| cells.get(status) != Some(&refused))
+    }
+
+    /// Gathers what is known of all runs of a sweep in several directories.
+    ///
+    /// # Errors
+    /// Those of [`Shards::find`] and [`Shards::read`]; [`JournalError::Changed`] if they belong to
+    /// different sweeps.
+    pub fn merged<P: AsRef<Path>>(directories: &[P]) -> Result<Self, JournalError> {
+        let mut all: Option<Gathered> = None;
+        for directory in directories.iter().map(AsRef::as_ref) {
+            let shards = Shards::find(directory)?;
+            let gathered = all.get_or_insert_with(|| Gathered::new(shards.plan.clone()));
+            same(directory, &shards.plan, &gathered.records.plan)?;
+            if let Some(runs) = shards.all() {
+                shards.gather(runs, gathered)?;
+            }
+        }
+        let missing = || JournalError::Missing {
+            directory: PathBuf::new(),
+        };
+        Ok(all.ok_or_else(missing)?.records())
+    }
+
+    /// Those of some runs that have no row.
+    #[must_use]
+    pub fn missing(&self, runs: Runs) -> Vec<Runs> {
+        let known = self
+            .rows
+            .range(runs.first()..=runs.last())
+            .map(|(run, _)| *run);
+        runs.without(&Runs::among(known))
+    }
+}
+
+/// Records that grow.
+pub(super) struct Gathered {
+    records: Records,
+    pub(super) sealed: Vec<Runs>,
+    columns: Columns,
+    /// The files.
+    paths: Vec<PathBuf>,
+    /// The file of each row.
+    of: BTreeMap<u64, usize>,
+}
+
+/// Places of columns that have a meaning here.
+struct Columns {
+    seconds: usize,
+    status: usize,
+    names: Vec<String>,
+}
+
+impl Columns {
+    fn of(plan: &SweepPlan) -> Self {
+        let columns = plan.columns().into_iter();
+        let names: Vec<String> = columns.map(|column| column.name).collect();
+        // Varied keys come first and may have any names.
+        let behind = 1 + plan.keys.len();
+        let place = |name: &str| {
+            let own = names.iter().skip(behind);
+            own.take_while(|own| *own != name).count() + behind
+        };
+        Self {
+            seconds: place("seconds"),
+            status: place("status"),
+            names,
+        }
+    }
+}
+
+impl Gathered {
+    pub(super) fn new(plan: SweepPlan) -> Self {
+        Self {
+            columns: Columns::of(&plan),
+            records: Records {
+                plan,
+                rows: SweepRows::new(),
+                repeated: 0,
+                sealed: Vec::new(),
+                suspects: BTreeMap::new(),
+            },
+            sealed: Vec::new(),
+            paths: Vec::new(),
+            of: BTreeMap::new(),
+        }
+    }
+
+    /// Takes a row of a file. A second one of the same run must say the same, except for the time
+    /// it took and except that it may have ended its process.
+    pub(super) fn take(
+        &mut self,
+        run: u64,
+        cells: Vec<Cell>,
+        path: &Path,
+    ) -> Result<(), JournalError> {
+        if self.paths.last().is_none_or(|last| last != path) {
+            self.paths.push(path.to_owned());
+        }
+        let file = self.paths.len() - 1;
+        let Some(known) = self.records.rows.get_mut(&run) else {
+            self.records.rows.insert(run, cells);
+            self.of.insert(run, file);
+            return Ok(());
+        };
+        let Columns {
+            seconds,
+            status,
+            names,
+        } = &self.columns;
+        let pairs = || known.iter().zip(&cells).enumerate();
+        let differs = pairs().find(|(k, (a, b))| k != seconds && !a.is_same(b));
+        let Some((k, (one, other))) = differs else {
+            // A copy has the same time, too.
+            let is_copy = pairs().all(|(_, (a, b))| a.is_same(b));
+            self.records.repeated += u64::from(!is_copy);
+            return Ok(());
+        };
+        let crashed = Cell::Text(SweepStatus::Crashed.name().to_owned());
+        self.records.repeated += 1;
+        if cells.get(*status) == Some(&crashed) {
+            return Ok(());
+        }
+        if known.get(*status) == Some(&crashed) {
+            *known = cells;
+            self.of.insert(run, file);
+            return Ok(());
+        }
+        let first = self.of.get(&run).map_or(file, |file| *file);
+        Err(Box::new(Difference {
+            run,
+            column: names.get(k).cloned().unwrap_or_default(),
+            values: [one.to_string(), other.to_string()],
+            paths: [self.paths[first].clone(), path.to_owned()],
+        })
+        .into())
+    }
+
+    /// Notes that a process ended during these runs; true for one that it made alone.
+    pub(super) fn blame(&mut self, begun: BTreeMap<u64, bool>) {
+        for (run, was_alone) in begun {
+            *self.records.suspects.entry(run).or_default() += u64::from(was_alone);
+        }
+    }
+
+    pub(super) fn records(self) -> Records {
+        let Self {
+            mut records,
+            sealed,
+            ..
+        } = self;
+        records
+            .suspects
+            .retain(|run, _| !records.rows.contains_key(run));
+        records.sealed = sealed;
+        records
+    }
+}

@@ -1,0 +1,428 @@
+//! The folder `shards` of the directory of a sweep: the plan, finished shards, and the journals of
+//! attempts. Names tell which runs a file is about, so that nobody reads what he does not need.
+//!
+//! | file | content |
+//! | --- | --- |
+//! | `plan` | the description of the sweep; whoever comes first writes it |
+//! | `0001-0500.rows` | a finished shard: complete, or not there |
+//! | `0001-0500.parquet` | the same as Parquet, written before |
+//! | `0001-0500.HOST-PID-TIME.journal` | an attempt |
+//!
+//! Files are written beside their places, synchronised and renamed, so that two processes may write
+//! the same one: their contents differ in the column `seconds` alone. There are no locks.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use super::error::{json, mark, same};
+use super::line::{Entry, Head, intact, line, record};
+use super::records::Gathered;
+use super::{Journal, JournalError, Records, Runs, SweepPlan};
+use crate::files::process::{Life, Process};
+use crate::files::{FileError, own_part};
+
+/// Extension of the names of finished shards.
+const ROWS: &str = ".rows";
+/// Extension of the names of journals.
+pub(super) const JOURNAL: &str = ".journal";
+/// Name of the plan.
+const PLAN: &str = "plan";
+/// Name of the folder.
+const FOLDER: &str = "shards";
+
+/// How often files may vanish while they are read, because others have finished a shard and removed
+/// its journals.
+const LOOKS: usize = 1000;
+
+/// The shards of a sweep in a directory.
+#[derive(Clone, Debug)]
+pub struct Shards {
+    pub(super) folder: PathBuf,
+    pub(super) plan: SweepPlan,
+    /// Digest of the plan.
+    pub(super) mark: String,
+}
+
+/// A file of the folder.
+struct Found {
+    path: PathBuf,
+    runs: Runs,
+    is_sealed: bool,
+}
+
+/// What a file says.
+struct Told {
+    found: Found,
+    entries: Vec<Entry>,
+    by: Option<Process>,
+}
+
+impl Shards {
+    /// Opens those of a directory, and begins them if there are none.
+    ///
+    /// # Errors
+    /// - [`JournalError::Changed`], [`JournalError::Damaged`]: another sweep is there.
+    /// - [`JournalError::File`]: the operating system reported an error.
+    pub fn open(directory: &Path, plan: &SweepPlan) -> Result<Self, JournalError> {
+        let folder = directory.join(FOLDER);
+        fs::create_dir_all(&folder).map_err(FileError::refused("make the directory", &folder))?;
+        let path = folder.join(PLAN);
+        let found = match Self::plan_in(&path)? {
+            Some(found) => found,
+            None => {
+                publish(&path, &line(&json(plan)), Publish::Once)?;
+                // Another process may have been faster.
+                Self::plan_in(&path)?.ok_or(JournalError::Damaged { path: path.clone() })?
+            }
+        };
+        same(&path, &found, plan)?;
+        Ok(Self {
+            folder,
+            mark: mark(plan),
+            plan: found,
+        })
+    }
+
+    /// Those that were begun in a directory.
+    ///
+    /// # Errors
+    /// - [`JournalError::Missing`]: there are none.
+    /// - [`JournalError::Damaged`], [`JournalError::File`]: they cannot be read.
+    pub fn find(directory: &Path) -> Result<Self, JournalError> {
+        fs::metadata(directory).map_err(FileError::refused("read", directory))?;
+        let folder = directory.join(FOLDER);
+        let plan = Self::plan_in(&folder.join(PLAN))?;
+        let plan = plan.ok_or_else(|| JournalError::Missing {
+            directory: directory.to_owned(),
+        })?;
+        Ok(Self {
+            folder,
+            mark: mark(&plan),
+            plan,
+        })
+    }
+
+    /// The description of the sweep.
+    #[must_use]
+    pub fn plan(&self) -> &SweepPlan {
+        &self.plan
+    }
+
+    /// All runs of the sweep, if there are any.
+    #[must_use]
+    pub fn all(&self) -> Option<Runs> {
+        Runs::new(1, self.plan.runs)
+    }
+
+    fn plan_in(path: &Path) -> Result<Option<SweepPlan>, JournalError> {
+        let bytes = match fs::read(path) {
+            Ok(bytes) => bytes,
+            Err(e) if matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
+                return Ok(None);
+            }
+            Err(e) => return Err(FileError::refused("read", path)(e).into()),
+        };
+        let (_, mut lines) = intact(&bytes);
+        let plan = lines
+            .next()
+            .and_then(|text| serde_json::from_slice(text).ok());
+        plan.map(Some).ok_or_else(|| JournalError::Damaged {
+            path: path.to_owned(),
+        })
+    }
+
+    pub(super) fn name(&self, runs: Runs) -> String {
+        runs.name(self.plan.runs)
+    }
+
+    /// The files that are about some of these runs, in the order of their names.
+    fn found(&self, wanted: Runs) -> Result<Vec<Found>, JournalError> {
+        let refused = || FileError::refused("read", &self.folder);
+        let mut all = Vec::new();
+        for entry in fs::read_dir(&self.folder).map_err(refused())? {
+            let entry = entry.map_err(refused())?;
+            let name = entry.file_name();
+            let name = name.to_string_lossy();
+            let is_sealed = name.ends_with(ROWS);
+            let runs = name.split('.').next().and_then(Runs::of_name);
+            if let Some(runs) = runs.filter(|runs| runs.meets(wanted))
+                && (is_sealed || name.ends_with(JOURNAL))
+            {
+                all.push(Found {
+                    path: entry.path(),
+                    runs,
+                    is_sealed,
+                });
+            }
+        }
+        all.sort_by(|a, b| a.path.cmp(&b.path));
+        Ok(all)
+    }
+
+    /// The runs of the finished shards, by their names alone.
+    ///
+    /// # Errors
+    /// [`JournalError::File`]: the folder cannot be read.
+    pub fn sealed(&self) -> Result<Vec<Runs>, JournalError> {
+        let Some(all) = self.all() else {
+            return Ok(Vec::new());
+        };
+        let found = self.found(all)?.into_iter();
+        Ok(found
+            .filter(|file| file.is_sealed)
+            .map(|file| file.runs)
+            .collect())
+    }
+
+    /// What is known of some runs, from all files that are about them.
+    ///
+    /// # Errors
+    /// - [`JournalError::Changed`], [`JournalError::Damaged`]: a file belongs to another sweep.
+    /// - [`JournalError::Differs`]: two rows of one run differ.
+    /// - [`JournalError::File`]: the operating system reported an error.
+    pub fn read(&self, wanted: Runs) -> Result<Records, JournalError> {
+        let mut gathered = Gathered::new(self.plan.clone());
+        self.gather(wanted, &mut gathered)?;
+        Ok(gathered.records())
+    }
+
+    /// Adds what is known of some runs.
+    pub(super) fn gather(&self, wanted: Runs, gathered: &mut Gathered) -> Result<(), JournalError> {
+        let mut looks = 0;
+        let told = loop {
+            match self.told(wanted) {
+                // Its rows are in a finished shard now.
+                Err(JournalError::File(FileError::Refused { source, .. }))
+                    if source.kind() == ErrorKind::NotFound && looks < LOOKS =>
+                {
+                    looks += 1;
+                }
+                told => break told?,
+            }
+        };
+        for Told { found, entries, by } in told {
+            let mut begun: BTreeMap<u64, bool> = BTreeMap::new();
+            let mut has_ended = false;
+            let mut count = 0;
+            for entry in entries {
+                match entry {
+                    Entry::Begin(runs) => begun.extend(runs.into_iter().map(|run| (run, false))),
+                    Entry::Alone(run) => drop(begun.insert(run, true)),
+                    Entry::End => has_ended = true,
+                    Entry::Row(run, cells) => {
+                        begun.remove(&run);
+                        count += 1;
+                        gathered.take(run, cells, &found.path)?;
+                    }
+                }
+            }
+            if found.is_sealed {
+                let common = wanted.without(&wanted.without(&[found.runs]));
+                let expected: u64 = common.iter().map(|runs| runs.count()).sum();
+                // A damaged one is made again.
+                if count >= expected {
+                    gathered.sealed.push(found.runs);
+                }
+                continue;
+            }
+            let is_dead = match by.as_ref().map(Process::life) {
+                Some(Life::Runs) => false,
+                Some(Life::Gone) => true,
+                // Nobody asks for a shard again that is being made.
+                Some(Life::Unknown) | None => found.runs == wanted,
+            };
+            if !has_ended && is_dead {
+                gathered.blame(begun);
+            }
+        }
+        Ok(())
+    }
+
+    fn told(&self, wanted: Runs) -> Result<Vec<Told>, JournalError> {
+        let columns = self.plan.columns();
+        let mut all = Vec::new();
+        for found in self.found(wanted)? {
+            let bytes = fs::read(&found.path).map_err(FileError::refused("read", &found.path))?;
+            let Some((head, lines)) = self.content(&found, &bytes)? else {
+                continue;
+            };
+            let entries = lines.filter_map(|line| Entry::read(line, &columns, wanted));
+            all.push(Told {
+                entries: entries.collect(),
+                by: head.by,
+                found,
+            });
+        }
+        Ok(all)
+    }
+
+    /// The first line of a file and the others; `None` if it has been cut off before.
+    fn content<'b>(
+        &self,
+        found: &Found,
+        bytes: &'b [u8],
+    ) -> Result<Option<(Head, impl Iterator<Item = &'b [u8]> + use<'b>)>, JournalError> {
+        if !bytes.contains(&b'\n') {
+            return Ok(None);
+        }
+        let (begins, mut lines) = intact(bytes);
+        let head = lines.next().filter(|_| begins);
+        let head = head.and_then(|text| serde_json::from_slice::<Head>(text).ok());
+        let damaged = || JournalError::Damaged {
+            path: found.path.clone(),
+        };
+        let head = head.ok_or_else(damaged)?;
+        if head.runs() != Some(found.runs) {
+            return Err(damaged());
+        }
+        if head.plan != self.mark {
+            return Err(JournalError::Changed {
+                path: found.path.clone(),
+                what: "the digest of its plan",
+                was: head.plan,
+                now: self.mark.clone(),
+            });
+        }
+        Ok(Some((head, lines)))
+    }
+
+    /// Begins an attempt to make some runs.
+    ///
+    /// # Errors
+    /// [`JournalError::File`]: the operating system reported an error.
+    pub fn begin(&self, runs: Runs) -> Result<Journal, JournalError> {
+        Journal::begin_in(self, runs)
+    }
+
+    /// Writes a finished shard. All of its runs have rows.
+    ///
+    /// # Errors
+    /// [`JournalError::File`]: it could not be written.
+    pub fn seal(&self, runs: Runs, records: &Records) -> Result<(), JournalError> {
+        let path = self.folder.join(self.name(runs) + ROWS);
+        let rows = || records.rows.range(runs.first()..=runs.last());
+        #[cfg(feature = "parquet")]
+        if Some(runs) != self.all() {
+            let part = path.with_extension("parquet");
+            let columns = self.plan.columns();
+            let rows = rows()
+                .map(|(_, cells)| cells.as_slice())
+                .collect::<Vec<_>>();
+            let written = super::parquet::write(Vec::new(), &self.plan, &columns, &rows);
+            let bytes = written
+                .map_err(|e| FileError::refused("write", &part)(std::io::Error::other(e)))?;
+            publish(&part, &bytes, Publish::Anew)?;
+        }
+        let head = Head {
+            plan: self.mark.clone(),
+            runs: (runs.first(), runs.last()),
+            by: None,
+        };
+        let mut bytes = line(&serde_json::to_vec(&head).unwrap_or_default());
+        for (_, cells) in rows() {
+            let text = record(cells).map_err(FileError::refused("write", &path))?;
+            bytes.extend(line(&text));
+        }
+        Ok(publish(&path, &bytes, Publish::Anew)?)
+    }
+
+    /// Removes journals of attempts that are over and whose runs are in finished shards.
+    ///
+    /// # Errors
+    /// [`JournalError::File`]: the operating system reported an error.
+    pub fn tidy(&self, runs: Runs) -> Result<(), JournalError> {
+        let sealed = self.sealed()?;
+        for found in self.found(runs)? {
+            if found.is_sealed || !found.runs.without(&sealed).is_empty() {
+                continue;
+            }
+            // Another process may be as tidy.
+            let Ok(bytes) = fs::read(&found.path) else {
+                continue;
+            };
+            let Some((head, lines)) = self.content(&found, &bytes)? else {
+                continue;
+            };
+            let end = Entry::End.text();
+            let life = head.by.as_ref().map(Process::life);
+            if life == Some(Life::Gone) || lines.into_iter().any(|line| line == end) {
+                let _ = fs::remove_file(&found.path);
+            }
+        }
+        Ok(())
+    }
+
+    /// Removes the folder if there is nothing in it but the plan.
+    pub fn forget(&self) {
+        let files = fs::read_dir(&self.folder).map_or(0, Iterator::count);
+        if files == 1 && fs::remove_file(self.folder.join(PLAN)).is_ok() {
+            // Others may have begun.
+            let _ = fs::remove_dir(&self.folder);
+        }
+    }
+}
+
+/// Says in the journals of this process that its end is ordered: the runs that are begun are not to
+/// blame for it. For a process that is about to be ended without unwinding.
+pub fn end_attempts(directory: &Path) {
+    let Ok(shards) = Shards::find(directory) else {
+        return;
+    };
+    let Some(Ok(files)) = shards.all().map(|all| shards.found(all)) else {
+        return;
+    };
+    let own = Process::own();
+    for found in files.iter().filter(|found| !found.is_sealed) {
+        let bytes = fs::read(&found.path).unwrap_or_default();
+        if let Ok(Some((head, _))) = shards.content(found, &bytes)
+            && head.by.as_ref() == Some(&own)
+        {
+            let file = File::options().append(true).open(&found.path);
+            // The process ends, whether or not this can be done.
+            let _ = file.and_then(|mut file| file.write_all(&line(&Entry::End.text())));
+        }
+    }
+}
+
+/// What becomes of an older file.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Publish {
+    /// It stays.
+    Once,
+    /// It is replaced.
+    Anew,
+}
+
+/// Writes a file beside its place, synchronises it with the disk and gives it its name.
+fn publish(path: &Path, bytes: &[u8], how: Publish) -> Result<(), FileError> {
+    let part = own_part(path);
+    let written = || {
+        let mut file = File::create(&part)?;
+        file.write_all(bytes)?;
+        file.sync_all()
+    };
+    let placed = || match how {
+        // Not every file system has links.
+        Publish::Once => match fs::hard_link(&part, path) {
+            Ok(()) => fs::remove_file(&part),
+            Err(e) if e.kind() == ErrorKind::AlreadyExists => fs::remove_file(&part),
+            Err(_) => fs::rename(&part, path),
+        },
+        Publish::Anew => fs::rename(&part, path),
+    };
+    let done = written()
+        .map_err(FileError::refused("write", path))
+        .and_then(|()| placed().map_err(FileError::refused("rename to", path)));
+    if done.is_err() {
+        // The first error is the one to report.
+        let _ = fs::remove_file(&part);
+    }
+    done?;
+    // The file itself is on the disk; not every system can do the same for its name.
+    if let Some(folder) = path.parent() {
+        let _ = File::open(folder).and_then(|folder| folder.sync_all());
+    }
+    Ok(())
+}

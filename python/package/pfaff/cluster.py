@@ -1,0 +1,492 @@
+"""Sweeps: many runs of one scene with other numbers, here or on the machines of a cluster.
+
+>>> import pfaff.cluster
+>>> from dask.distributed import Client  # doctest: +SKIP
+>>> result = pfaff.cluster.sweep(  # doctest: +SKIP
+...     scene, {"body.cart.mass": "5:20:1000"}, Client("scheduler:8786"), out="masses"
+... )
+
+The unit of work is a shard: consecutive runs, some tens of seconds. A finished shard is a file in the
+directory, which all workers see. Who is asked for a shard that is finished does nothing; who is asked
+for one that was begun continues it. So whatever repeats lost work may do so.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _pfaff
+from . import _toml as toml
+from ._errors import wrong
+
+if TYPE_CHECKING:
+    from ._scene import Scene
+
+__all__ = ["Done", "Shard", "SweepResult", "make_shard", "sweep"]
+
+Vary = Mapping[str, Any] | str | Sequence[str]
+"""Keys with their values, or texts as those of ``pfaff sweep --vary``."""
+
+SHARD_SECONDS = 20.0
+"""How long a shard should take. Less costs more files, more has workers wait at the end."""
+
+SHARD_SECONDS_LEAST = 2.0
+"""How long a shard should take at least where there are few."""
+
+SHARDS_PER_WORKER = 4
+"""How many shards a worker should have, so that all end at similar times."""
+
+PROBE_SECONDS = 0.5
+"""How long runs are tried to find out how long one takes."""
+
+PROBES = 16
+"""Most runs that are tried."""
+
+
+class Shard(NamedTuple):
+    """One of n parts of a sweep, with all that is needed to make it anywhere."""
+
+    text: str
+    """The scene."""
+    name: str
+    """The name of its text in messages."""
+    vary: tuple[str, ...]
+    """What is varied."""
+    keep_rows: bool
+    """Whether each run keeps its trajectory."""
+    out: str
+    """The directory."""
+    k: int
+    """Which part, from 1."""
+    n: int
+    """How many there are."""
+    threads: int
+    """Threads for it; 0 for all cores."""
+
+
+class Done(NamedTuple):
+    """What became of a shard."""
+
+    k: int
+    """Which part."""
+    made: int
+    """Number of runs that were made; the others were finished before."""
+    tables: bool
+    """Whether it was the last one, which writes the tables."""
+    summary: dict[str, Any]
+    """The summary of its runs."""
+
+
+def make_shard(shard: Shard) -> Done:
+    """Makes what is not finished of a shard; the task of all engines."""
+    done = _made(shard, None, _stop_of_worker())
+    if done.summary["partial"]:
+        raise RuntimeError(f"the worker ends, and shard {shard.k} of {shard.n} is not finished")
+    return done
+
+
+def _made(
+    shard: Shard, on_runs: Callable[[int, int], object] | None, stop: Callable[[], bool] | None
+) -> Done:
+    of = _pfaff.Sweep(shard.name, shard.text, list(shard.vary), shard.keep_rows)
+    summary, made, tables = of.make(shard.out, shard.k, shard.n, shard.threads, on_runs, stop)
+    return Done(shard.k, made, tables, json.loads(summary))
+
+
+def _stop_of_worker() -> Callable[[], bool] | None:
+    """Whether the worker of Dask on which this is called is about to end.
+
+    A shard that is left in order suspects no run of having ended the process.
+    """
+    distributed = sys.modules.get("distributed")
+    if distributed is None:
+        return None
+    try:
+        worker = distributed.get_worker()
+    except ValueError:
+        return None
+    return lambda: "clos" in str(worker.status)
+
+
+class SweepResult:
+    """The finished runs of a sweep."""
+
+    def __init__(
+        self, directory: str | None, made: int, summary: str, columns: list[tuple[str, Any]]
+    ) -> None:
+        self.directory = directory
+        """The directory; ``None`` if it was a temporary one."""
+        self.made = made
+        """Number of runs that were made by this call; the others were finished before."""
+        self.document: dict[str, Any] = json.loads(summary)
+        """The summary, as in ``summary.json``."""
+        self.table: dict[str, NDArray[Any]] = {name: _column(values) for name, values in columns}
+        """The columns of ``sweep.csv``, a value for each finished run, in the order of the grid."""
+
+    @property
+    def failures(self) -> list[dict[str, Any]]:
+        """Runs that are not done, with ``run``, ``status`` and ``error``."""
+        columns = [self.table[name] for name in ("run", "status", "error")]
+        rows = zip(*(column.tolist() for column in columns), strict=True)
+        return [
+            {"run": run, "status": status, "error": error}
+            for run, status, error in rows
+            if status != "done"
+        ]
+
+    @property
+    def missing(self) -> list[tuple[int, int]]:
+        """First and last runs of the gaps."""
+        return [(first, last) for first, last in self.document["missing"]]
+
+    def to_pandas(self) -> Any:
+        """The table as a ``pandas.DataFrame`` with the numbers of the runs as its index."""
+        import pandas
+
+        return pandas.DataFrame(self.table).set_index("run")
+
+    def to_polars(self) -> Any:
+        """The table as a ``polars.DataFrame``."""
+        import polars
+
+        columns = {
+            name: column.tolist() if column.dtype == object else column
+            for name, column in self.table.items()
+        }
+        return polars.DataFrame(columns)
+
+    def __repr__(self) -> str:
+        d = self.document
+        runs = f"{d['finished']} of {d['runs']} runs, {d['done']} done"
+        return f"<pfaff.SweepResult {d['scene']!r}: {runs}>"
+
+
+def _column(values: Any) -> NDArray[Any]:
+    if isinstance(values, np.ndarray):
+        return values
+    texts = np.empty(len(values), dtype=object)
+    texts[:] = values
+    return texts
+
+
+def sweep(
+    scene: Scene,
+    vary: Vary,
+    client: Any = None,
+    *,
+    out: str | os.PathLike[str] | None = None,
+    shards: int | None = None,
+    threads: int | None = None,
+    retries: int = 3,
+    keep_rows: bool = False,
+    on_progress: Callable[[int, int], object] | None = None,
+    progress: bool | None = None,
+) -> SweepResult:
+    """Runs a scene with every combination of values.
+
+    ``vary`` has for each key a list of values, numbers or texts with units, or a text as
+    ``"5:20:1000"``; or it is the text, or the texts, of ``pfaff sweep --vary``.
+
+    ``client`` makes the shards: a client of Dask, the module ``ray`` or its name, a
+    ``joblib.Parallel``, an executor of ``concurrent.futures``, or this process if it is ``None``.
+    ``out`` is a directory that all its workers see; without a client it may be left out. The same
+    call in the same directory resumes a sweep, and a finished one is only read.
+
+    ``shards`` is the number of parts; by default it is that of the directory, or such that each
+    takes some tens of seconds, for which a few runs are tried in this process. ``threads`` are
+    those of one shard: one by default, and all cores without a client. Lost work is repeated up to
+    ``retries`` times by the engine, and as often by this function.
+
+    ``on_progress`` gets the numbers of finished runs and of all runs; the sweep ends where it
+    returns ``True``. ``progress`` shows a line; by default where standard error is a terminal.
+    """
+    texts = tuple(_texts(vary))
+    of = _pfaff.Sweep(scene.file, scene.text, list(texts), keep_rows)
+    engine = _engine(client)
+    if shards is not None and shards < 1:
+        raise wrong(f"shards is {shards}, need a number ≥ 1")
+    if threads is None:
+        threads = 0 if engine is None else 1
+    told = _Told(of.runs, on_progress, sys.stderr.isatty() if progress is None else progress)
+
+    def made_in(directory: str) -> int:
+        part = Shard(scene.text, scene.file, texts, keep_rows, directory, 1, 1, threads)
+        try:
+            if engine is None:
+                return _make_here(part, shards or 1, told)
+            return _make_by(engine, of, part, shards, retries, told)
+        finally:
+            told.end()
+
+    if out is not None:
+        directory = os.path.abspath(os.fspath(out))
+        made = made_in(directory)
+        return SweepResult(directory, made, *_pfaff.sweep_columns(directory))
+    if engine is not None:
+        raise wrong("out is None, need a directory that all workers see")
+    with tempfile.TemporaryDirectory() as folder:
+        made = made_in(folder)
+        return SweepResult(None, made, *_pfaff.sweep_columns(folder))
+
+
+def _make_here(part: Shard, n: int, told: _Told) -> int:
+    """Makes what is not finished in this process; returns the number of runs that were made."""
+    made = before = 0
+    for k in range(1, n + 1):
+        done = _made(part._replace(k=k, n=n), lambda count, _: told.now(before + count), None)
+        made += done.made
+        before += done.summary["finished"]
+        if told.now(before):
+            break
+    return made
+
+
+def _make_by(
+    engine: _Engine, of: _pfaff.Sweep, part: Shard, shards: int | None, retries: int, told: _Told
+) -> int:
+    """Has made what is not finished; returns the number of runs that were made."""
+    n = shards or of.shards(part.out) or _number(of, engine.workers(part.threads))
+    left = of.unfinished(part.out, n)
+    finished = of.runs - sum(_size(of.runs, k, n) for k in left)
+    told.now(finished)
+    made = 0
+    has_tables = False
+    for done in engine.run([part._replace(k=k, n=n) for k in left], retries):
+        made += done.made
+        has_tables |= done.tables
+        finished += done.summary["finished"]
+        if told.now(finished):
+            return made
+    if not has_tables:
+        # All shards were finished before, or whoever ended last could not see that.
+        _pfaff.merge([part.out], part.out)
+    return made
+
+
+def _size(runs: int, k: int, n: int) -> int:
+    """Number of runs of the k-th of n shards."""
+    return k * runs // n - (k - 1) * runs // n
+
+
+def _number(of: _pfaff.Sweep, workers: int) -> int:
+    """The number of shards, from a few runs that are tried."""
+    runs = of.runs
+    most = min(PROBES, runs)
+    tried = sorted({1 + k * (runs - 1) // max(1, most - 1) for k in range(most)})
+    # Not in their order, so that neighbours are not tried alone.
+    tried = tried[::3] + tried[1::3] + tried[2::3]
+    spent: list[float] = []
+    for run in tried:
+        spent.append(of.seconds(run))
+        if sum(spent) > PROBE_SECONDS:
+            break
+    # The first one is slower, because it comes first.
+    usual = spent[1:] or spent
+    total = runs * sum(usual) / len(usual)
+    few = min(SHARDS_PER_WORKER * workers, math.ceil(total / SHARD_SECONDS_LEAST))
+    n = max(1, few, math.ceil(total / SHARD_SECONDS))
+    # All workers have something to do to the end.
+    n = math.ceil(n / workers) * workers
+    return max(1, min(n, runs))
+
+
+def _texts(vary: Vary) -> list[str]:
+    """The texts of the command for what is varied."""
+    if isinstance(vary, str):
+        return [vary]
+    if not isinstance(vary, Mapping):
+        return list(vary)
+    return [f"{key}={_values(key, values)}" for key, values in vary.items()]
+
+
+def _values(key: str, values: Any) -> str:
+    if isinstance(values, str):
+        return values
+    if hasattr(values, "tolist"):
+        values = values.tolist()
+    if not isinstance(values, Iterable):
+        values = [values]
+    texts = []
+    for value in values:
+        try:
+            texts.append(value if isinstance(value, str) else toml.number(float(value)))
+        except (TypeError, ValueError):
+            kind = type(value).__name__
+            raise wrong(f"a value of `{key}` is {kind}, need a number or a text") from None
+    return ",".join(texts)
+
+
+class _Told:
+    """Progress: a callback, and a line."""
+
+    def __init__(
+        self, runs: int, callback: Callable[[int, int], object] | None, shown: bool
+    ) -> None:
+        self.runs = runs
+        self.finished = 0
+        self._callback = callback
+        self._shown = shown
+        self._begun = time.monotonic()
+        self._width = 0
+
+    def now(self, finished: int) -> bool:
+        """Tells the number of finished runs; true if the sweep has to end."""
+        self.finished = finished
+        if self._shown:
+            seconds = time.monotonic() - self._begun
+            line = f"{finished} of {self.runs} runs, {seconds:.0f} s"
+            self._width = max(self._width, len(line))
+            print(f"\r{line:<{self._width}}", end="", file=sys.stderr, flush=True)
+        return self._callback is not None and bool(self._callback(finished, self.runs))
+
+    def end(self) -> None:
+        """Ends the line."""
+        if self._shown and self._width:
+            print(file=sys.stderr)
+
+
+class _Engine:
+    """What makes shards."""
+
+    def __init__(self, client: Any) -> None:
+        self.client = client
+
+    def workers(self, threads: int) -> int:
+        """How many shards are made at the same time."""
+        raise NotImplementedError
+
+    def run(self, shards: list[Shard], retries: int) -> Iterator[Done]:
+        """Makes shards, in any order."""
+        raise NotImplementedError
+
+
+def _is_lost(error: BaseException) -> bool:
+    """Whether the workers of a task are gone, not the task wrong."""
+    return type(error).__name__ in ("KilledWorker", "WorkerCrashedError", "TerminatedWorkerError")
+
+
+class _Dask(_Engine):
+    def workers(self, threads: int) -> int:
+        return max(1, int(sum(self.client.nthreads().values())))
+
+    def run(self, shards: list[Shard], retries: int) -> Iterator[Done]:
+        as_completed: Any = import_module("distributed").as_completed
+        again = dict.fromkeys(shards, retries)
+        names: dict[Any, Shard] = {}
+
+        def submitted(some: list[Shard]) -> list[Any]:
+            futures = self.client.map(
+                make_shard, some, key="pfaff-shard", pure=False, retries=retries
+            )
+            names.update(zip((future.key for future in futures), some, strict=True))
+            return list(futures)
+
+        futures = submitted(shards)
+        waiting = as_completed(futures)
+        try:
+            for future in waiting:
+                error = future.exception() if future.status == "error" else None
+                shard = names[future.key]
+                if error is not None and _is_lost(error) and again[shard] > 0:
+                    # Each loss tells more about the run that is to blame.
+                    again[shard] -= 1
+                    more = submitted([shard])
+                    futures += more
+                    waiting.update(more)
+                else:
+                    yield future.result()
+        finally:
+            self.client.cancel(futures)
+
+
+class _Ray(_Engine):
+    def workers(self, threads: int) -> int:
+        cores = int(self.client.cluster_resources().get("CPU", 1))
+        return max(1, cores // max(1, threads))
+
+    def run(self, shards: list[Shard], retries: int) -> Iterator[Done]:
+        ray = self.client
+        threads = max((shard.threads for shard in shards), default=1)
+        made = ray.remote(num_cpus=max(1, threads), max_retries=retries)(make_shard)
+        again = dict.fromkeys(shards, retries)
+        waiting = {made.remote(shard): shard for shard in shards}
+        try:
+            while waiting:
+                (reference, *_), _ = ray.wait(list(waiting), num_returns=1)
+                shard = waiting.pop(reference)
+                try:
+                    yield ray.get(reference)
+                except Exception as error:
+                    if not _is_lost(error) or again[shard] <= 0:
+                        raise
+                    again[shard] -= 1
+                    waiting[made.remote(shard)] = shard
+        finally:
+            for reference in waiting:
+                ray.cancel(reference)
+
+
+class _Joblib(_Engine):
+    def workers(self, threads: int) -> int:
+        joblib: Any = import_module("joblib")
+        return max(1, int(joblib.effective_n_jobs(self.client.n_jobs)))
+
+    def run(self, shards: list[Shard], retries: int) -> Iterator[Done]:
+        joblib: Any = import_module("joblib")
+        for left in range(retries, -1, -1):
+            try:
+                yield from self.client(joblib.delayed(make_shard)(shard) for shard in shards)
+                return
+            except Exception as error:
+                # Finished shards are found finished.
+                if not _is_lost(error) or left == 0:
+                    raise
+
+
+class _Executor(_Engine):
+    def workers(self, threads: int) -> int:
+        most: int | None = getattr(self.client, "_max_workers", None)
+        return max(1, most or os.cpu_count() or 1)
+
+    def run(self, shards: list[Shard], retries: int) -> Iterator[Done]:
+        from concurrent.futures import as_completed
+
+        futures = [self.client.submit(make_shard, shard) for shard in shards]
+        try:
+            for future in as_completed(futures):
+                yield future.result()
+        finally:
+            for future in futures:
+                future.cancel()
+
+
+def _engine(client: Any) -> _Engine | None:
+    """What makes shards, known by what it can do: nothing is imported that is not there."""
+    if client is None:
+        return None
+    if client == "ray":
+        return _Ray(import_module("ray"))
+    if isinstance(client, ModuleType) and client.__name__ == "ray":
+        return _Ray(client)
+    if hasattr(client, "map") and hasattr(client, "nthreads"):
+        return _Dask(client)
+    if type(client).__module__.split(".")[0] == "joblib":
+        return _Joblib(client)
+    if hasattr(client, "submit") and hasattr(client, "shutdown"):
+        return _Executor(client)
+    kind = type(client).__name__
+    raise wrong(
+        f"client is {kind}, need a client of Dask, the module `ray`, a joblib.Parallel or an executor"
+    )

@@ -1,0 +1,264 @@
+//! Many runs of one scene, made in shards and read as columns.
+
+use std::path::PathBuf;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use numpy::IntoPyArray;
+use pfaff::refusal::{Refusal, json};
+use pfaff::report::sweep::{Cell, Extent, Kind, Records, Shards};
+use pfaff::report::{SweepDocument, SweepStatus};
+use pfaff::sweep::{Axis, Shard, SweepError, SweepProgress, SweepSettings, Tables};
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+
+use crate::fault::{Fault, guarded, wrong};
+use crate::hearing::Hearing;
+use crate::scene::REGISTRY;
+
+/// Time between two looks for signals and for a wish to stop.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Time between two reports of progress.
+const REPORT: Duration = Duration::from_millis(100);
+
+/// A scene and what is varied in it.
+#[pyclass(frozen, module = "pfaff._pfaff")]
+pub(crate) struct Sweep {
+    name: String,
+    text: String,
+    of: pfaff::sweep::Sweep<'static>,
+}
+
+impl From<SweepError> for Fault {
+    fn from(error: SweepError) -> Self {
+        refused(("", ""), error)
+    }
+}
+
+/// An error, with its places in the text if it is about the scene.
+fn refused(source: (&str, &str), error: SweepError) -> Fault {
+    let error = match error {
+        SweepError::Study(error) => return Refusal::of(source, error).into(),
+        other => other,
+    };
+    let (words, code) = (error.to_string(), error.code());
+    let refusal = if error.is_input() {
+        Refusal::input(words)
+    } else {
+        Refusal::stopped(words)
+    };
+    refusal.coded(code).into()
+}
+
+#[pymethods]
+impl Sweep {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        name: String,
+        text: String,
+        vary: Vec<String>,
+        keep_rows: bool,
+    ) -> PyResult<Self> {
+        guarded(py, || {
+            let axes = vary.iter().map(|text| text.parse::<Axis>());
+            let axes = axes
+                .collect::<Result<Vec<_>, _>>()
+                .map_err(SweepError::from)?;
+            let of = pfaff::sweep::Sweep::read(&name, &text, &REGISTRY, axes);
+            let of = of.map_err(|e| refused((&name, &text), e))?;
+            let of = if keep_rows { of.keeping_rows() } else { of };
+            Ok(Self { name, text, of })
+        })
+    }
+
+    /// Number of runs of all shards.
+    #[getter]
+    fn runs(&self) -> u64 {
+        self.of.runs()
+    }
+
+    /// Makes a run without writing anything, and returns how long that took (s).
+    fn seconds(&self, py: Python<'_>, run: u64) -> PyResult<f64> {
+        guarded(py, || {
+            if !(1..=self.of.runs()).contains(&run) {
+                return Err(wrong(format!("there is no run {run}")));
+            }
+            let begun = Instant::now();
+            drop(self.of.row(run));
+            Ok(begun.elapsed().as_secs_f64())
+        })
+    }
+
+    /// The number of shards in which a directory is being filled, if it tells.
+    fn shards(&self, py: Python<'_>, directory: PathBuf) -> PyResult<Option<u64>> {
+        guarded(py, || {
+            // Nothing was begun, or what was begun is judged when runs are made.
+            let known = Shards::find(&directory).and_then(|shards| shards.sealed());
+            Ok(Shard::number(self.of.runs(), &known.unwrap_or_default()))
+        })
+    }
+
+    /// Which of n shards are not finished.
+    fn unfinished(&self, py: Python<'_>, directory: PathBuf, n: u64) -> PyResult<Vec<u64>> {
+        guarded(py, || {
+            let all = self.of.runs();
+            let known = Shards::find(&directory).and_then(|shards| shards.sealed());
+            let known = known.unwrap_or_default();
+            let mut left = Vec::new();
+            for k in 1..=n {
+                let shard = Shard::new(k, n).map_err(|e| wrong(e.to_string()))?;
+                let runs = shard.runs(all);
+                if runs.is_some_and(|runs| !runs.without(&known).is_empty()) {
+                    left.push(k);
+                }
+            }
+            Ok(left)
+        })
+    }
+
+    /// Makes the runs of a shard that are not finished. Returns its summary, the number of runs
+    /// that were made, and whether the tables of all runs were written.
+    ///
+    /// `on_runs` gets the number of finished runs and of failed ones among them, from time to time;
+    /// the shard ends where it or `stop` returns `True`.
+    #[pyo3(signature = (directory, k, n, threads, on_runs, stop))]
+    #[allow(clippy::too_many_arguments)]
+    fn make(
+        &self,
+        py: Python<'_>,
+        directory: PathBuf,
+        k: u64,
+        n: u64,
+        threads: usize,
+        on_runs: Option<Py<PyAny>>,
+        stop: Option<Py<PyAny>>,
+    ) -> PyResult<(String, u64, bool)> {
+        guarded(py, || {
+            let shard = Shard::new(k, n).map_err(|e| wrong(e.to_string()))?;
+            let settings = SweepSettings { shard, threads };
+            let hearing = Hearing::new();
+            let (mut made, mut count, mut failed) = (0, 0, 0);
+            let mut reported = Instant::now();
+            let note = |progress: SweepProgress<'_>| {
+                match progress {
+                    SweepProgress::Begin { finished, .. } => count = finished,
+                    SweepProgress::Finished(row) => {
+                        made += 1;
+                        count += 1;
+                        failed += u64::from(row.status != SweepStatus::Done);
+                    }
+                }
+                if let Some(on_runs) = &on_runs
+                    && reported.elapsed() > REPORT
+                {
+                    hearing.call(|py| on_runs.call1(py, (count, failed)));
+                    reported = Instant::now();
+                }
+            };
+            let outcome = thread::scope(|scope| {
+                let (done, is_done) = channel();
+                let hearing = &hearing;
+                let interrupted = move || hearing.has_ended();
+                let directory = &directory;
+                let work = move || {
+                    let outcome = self.of.run_into(directory, &settings, interrupted, note);
+                    // Somebody waits for it.
+                    let _ = done.send(());
+                    outcome.map_err(|e| refused((&self.name, &self.text), e))
+                };
+                // Signals are heard on this thread alone, which may be the main one.
+                let worker = scope.spawn(work);
+                while is_done.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+                    if worker.is_finished() {
+                        break;
+                    }
+                    hearing.ends();
+                    if let Some(stop) = &stop {
+                        hearing.call(|py| stop.call0(py));
+                    }
+                }
+                worker.join()
+            });
+            let outcome = outcome.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            if let Some(raised) = hearing.raised() {
+                return Err(raised.into());
+            }
+            let outcome = outcome?;
+            let has_tables = outcome.tables == Tables::Written;
+            Ok((json(&outcome.document)?, made, has_tables))
+        })
+    }
+}
+
+/// Writes the tables of what is in some directories. Returns the summary.
+#[pyfunction]
+pub(crate) fn merge(py: Python<'_>, directories: Vec<PathBuf>, into: PathBuf) -> PyResult<String> {
+    guarded(py, || {
+        let merged = pfaff::sweep::merge(&directories, &into).map_err(Fault::from)?;
+        Ok(json(&merged.document)?)
+    })
+}
+
+/// Names and values of columns.
+type Columns = Vec<(String, Py<PyAny>)>;
+
+/// The summary of what is in a directory, and its columns: counts as whole numbers, or with NaN if
+/// some are unknown, numbers, and lists of texts.
+#[pyfunction]
+pub(crate) fn sweep_columns(py: Python<'_>, directory: PathBuf) -> PyResult<(String, Columns)> {
+    let (document, records) = guarded(py, || {
+        let records = Records::merged(&[&directory]).map_err(SweepError::from)?;
+        Ok((json(&SweepDocument::new(&records, Extent::Whole))?, records))
+    })?;
+    let columns = records.plan.columns().into_iter().enumerate();
+    let columns = columns.map(|(k, column)| {
+        let cells = records.rows.values().filter_map(|cells| cells.get(k));
+        let values = match column.kind {
+            Kind::Count => {
+                let counts: Vec<Option<i64>> = cells.map(count).collect();
+                match counts.iter().copied().collect::<Option<Vec<i64>>>() {
+                    Some(counts) => counts.into_pyarray(py).into_any(),
+                    None => {
+                        let known = |n: Option<i64>| n.map_or(f64::NAN, |n| n as f64);
+                        let counts: Vec<f64> = counts.into_iter().map(known).collect();
+                        counts.into_pyarray(py).into_any()
+                    }
+                }
+            }
+            Kind::Number => {
+                let numbers: Vec<f64> = cells.map(number).collect();
+                numbers.into_pyarray(py).into_any()
+            }
+            Kind::Text => {
+                let texts: Vec<&str> = cells.map(text).collect();
+                PyList::new(py, texts)?.into_any()
+            }
+        };
+        Ok((column.name, values.unbind()))
+    });
+    Ok((document, columns.collect::<PyResult<_>>()?))
+}
+
+fn count(cell: &Cell) -> Option<i64> {
+    match cell {
+        Cell::Count(n) => n.and_then(|n| i64::try_from(n).ok()),
+        _ => None,
+    }
+}
+
+fn number(cell: &Cell) -> f64 {
+    match cell {
+        Cell::Number(x) => *x,
+        _ => f64::NAN,
+    }
+}
+
+fn text(cell: &Cell) -> &str {
+    match cell {
+        Cell::Text(text) => text,
+        _ => "",
+    }
+}
