@@ -92,7 +92,7 @@ pub struct CodeSpec {
 /// | `v`, `dv`, `a` | n_v | velocities, their changes, and accelerations |
 /// | `phi` | m | Φ(q, t) of all holonomic rows |
 /// | `residual`, `lambda` | m + h | C·v − b, and multipliers, of all rows |
-pub trait SceneCode: Send + Sync {
+pub trait SceneCode {
     /// The mechanism for which it was generated.
     fn spec(&self) -> &CodeSpec;
 
@@ -123,7 +123,58 @@ pub trait SceneCode: Send + Sync {
 
     /// The same code with these values of its inputs, in their order; `None` if it has no inputs,
     /// or not as many.
-    fn with_inputs(&self, _values: &[f64]) -> Option<Arc<dyn SceneCode>> {
+    fn with_inputs(&self, _values: &[f64]) -> Option<Arc<SharedCode>> {
         None
+    }
+}
+
+/// Code that runs of several threads share.
+pub type SharedCode = dyn SceneCode + Send + Sync;
+
+/// The functions of [`SceneCode`], for what evaluates them elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CodeFunction {
+    /// [`SceneCode::acceleration`]
+    Acceleration,
+    /// [`SceneCode::multipliers`]
+    Multipliers,
+    /// [`SceneCode::phi`]
+    Phi,
+    /// [`SceneCode::velocity_residual`]
+    VelocityResidual,
+    /// [`SceneCode::position_correction`]
+    PositionCorrection,
+    /// [`SceneCode::velocity_correction`]
+    VelocityCorrection,
+}
+
+impl CodeFunction {
+    /// All of them, each at its index.
+    pub const ALL: [Self; 6] = [
+        Self::Acceleration,
+        Self::Multipliers,
+        Self::Phi,
+        Self::VelocityResidual,
+        Self::PositionCorrection,
+        Self::VelocityCorrection,
+    ];
+
+    /// Its index in [`CodeFunction::ALL`].
+    #[must_use]
+    pub fn index(self) -> usize {
+        self as usize
+    }
+
+    /// The name of the function.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Acceleration => "acceleration",
+            Self::Multipliers => "multipliers",
+            Self::Phi => "phi",
+            Self::VelocityResidual => "velocity_residual",
+            Self::PositionCorrection => "position_correction",
+            Self::VelocityCorrection => "velocity_correction",
+        }
     }
 }

@@ -44,7 +44,7 @@ pub use manifold::Correction;
 pub use motion::KeptRowMotion;
 pub use options::{FORMULATION, Method, MotionOptions, RowChoice, Stabilisation};
 pub use plan::{Plan, Wanted};
-pub use prepare::{Prepared, prepare, start_velocity, unmovable};
+pub use prepare::{Prepared, prepare, prepare_after, start_velocity, unmovable};
 pub use run::{
     ComponentSummary, Failure, Reduced, Sample, Stop, Summary, simulate, simulate_until,
 };

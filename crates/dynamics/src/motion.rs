@@ -3,10 +3,9 @@
 //! stays the same, for example if a knife edge rotates. Then other rows are kept from an accepted
 //! and polished point on, which does not change the motion.
 
-use std::sync::Arc;
-
 use model::{Mechanism, Scratch, System};
 
+use crate::code::SceneCode;
 use crate::counts::{Counted, note};
 use crate::error::MotionFault;
 use crate::events::Event;
@@ -24,7 +23,7 @@ pub struct KeptRowMotion<'m> {
     pub(crate) manifold: Manifold,
     pub(crate) watch: Watch,
     /// Generated code, if there is some that can be used.
-    pub(crate) code: Option<CodeSwitch>,
+    pub(crate) code: Option<CodeSwitch<'m>>,
 }
 
 impl<'m> KeptRowMotion<'m> {
@@ -43,14 +42,23 @@ impl<'m> KeptRowMotion<'m> {
     /// As [`KeptRowMotion::new`]; also if no independent coordinates can be chosen for an implicit
     /// method.
     pub fn with(prepared: &'m Prepared, options: &MotionOptions) -> Result<Self, MotionFault> {
+        Self::evaluated(prepared, options, None)
+    }
+
+    /// Like [`KeptRowMotion::with`]; the generated code, if it is used, is evaluated by
+    /// `evaluator`.
+    pub(crate) fn evaluated(
+        prepared: &'m Prepared,
+        options: &MotionOptions,
+        evaluator: Option<&'m dyn SceneCode>,
+    ) -> Result<Self, MotionFault> {
         let mut motion = Self::interpreted(prepared, options)?;
         if options.method.needs_independent_coordinates() {
             motion.use_independent_coordinates(0.0, &prepared.q)?;
         }
         if let Ok(code) = prepared.code_for(options) {
-            let code = Arc::clone(code);
             motion.code = Some(CodeSwitch::new(
-                code,
+                evaluator.unwrap_or(&**code),
                 &mut motion.equations,
                 (0.0, &prepared.q),
             ));

@@ -11,7 +11,7 @@ use solvability::{
     rows_of_rank,
 };
 
-use crate::code::SceneCode;
+use crate::code::SharedCode;
 use crate::error::{DropError, MotionError};
 use crate::limits::TAKES_PART;
 use crate::motion::KeptRowMotion;
@@ -47,7 +47,7 @@ pub struct Prepared {
     /// Velocities at the start minus the given ones; zero for velocities that are not given.
     pub velocity_correction: Vec<f64>,
     /// Code generated for this mechanism on these rows, if any: see [`Prepared::with_code`].
-    pub(crate) code: Option<Arc<dyn SceneCode>>,
+    pub(crate) code: Option<Arc<SharedCode>>,
 }
 
 impl Prepared {
@@ -180,11 +180,33 @@ impl Prepared {
 /// - [`MotionError::RankUndecided`], [`MotionError::Rows`]: no rows can be chosen, or not the
 ///   requested ones.
 pub fn prepare(
-    mut mechanism: Mechanism,
+    mechanism: Mechanism,
     start: &StartOptions,
     rows: &RowChoice,
 ) -> Result<Prepared, MotionError> {
+    prepare_after(mechanism, start, rows, None)
+}
+
+/// Like [`prepare`]; what has been decided for another mechanism with the same constraints at the
+/// same configuration is taken from there, instead of being decided once more.
+///
+/// # Errors
+/// As [`prepare`].
+pub fn prepare_after(
+    mut mechanism: Mechanism,
+    start: &StartOptions,
+    rows: &RowChoice,
+    other: Option<&Prepared>,
+) -> Result<Prepared, MotionError> {
     let assembly = assemble(&mut mechanism, start)?;
+    let bits = |q: &[f64]| -> Vec<u64> { q.iter().map(|x| x.to_bits()).collect() };
+    let known = other.filter(|other| {
+        bits(&other.assembly.q) == bits(&assembly.q)
+            && mechanism.has_constraints_of(&other.mechanism)
+    });
+    if let Some(found) = known.and_then(|other| other.decided.clone()) {
+        return on_rows(mechanism, assembly, found, start, rows);
+    }
     let found = rows_of(&mechanism, 0.0, &assembly.q)?;
     if let Some(error) = unmovable(&mechanism, &found, &assembly.q) {
         // Report what prevents any motion first, since it is also an error of the analysis.

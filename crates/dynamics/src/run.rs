@@ -19,6 +19,7 @@ mod several;
 mod span;
 mod summary;
 
+use crate::code::SceneCode;
 use crate::error::MotionFault;
 use crate::options::MotionOptions;
 use crate::plan::{Plan, Wanted};
@@ -84,8 +85,27 @@ impl Plan<'_> {
         mut row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
     ) -> Result<Summary, Box<Failure>> {
         match self.components.len() {
-            1 => run_component(self, 0, (watch, stop), &mut row),
+            1 => run_component(self, 0, (watch, stop), None, &mut row),
             _ => several::run(self, (watch, stop), &mut row),
+        }
+    }
+
+    /// Like [`Plan::simulate_watched`] with the code of the mechanism evaluated by `evaluator`,
+    /// which has to give its results: for callers that evaluate several runs at once. A plan
+    /// without code runs as always.
+    ///
+    /// # Errors
+    /// As [`Plan::simulate`].
+    pub fn simulate_evaluated(
+        &self,
+        evaluator: &dyn SceneCode,
+        stop: &Stop<'_>,
+        mut row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
+    ) -> Result<Summary, Box<Failure>> {
+        let watched: (&Watch<'_>, &Stop<'_>) = (&|_| ControlFlow::Continue(()), stop);
+        match self.components.len() {
+            1 => run_component(self, 0, watched, Some(evaluator), &mut row),
+            _ => several::run(self, watched, &mut row),
         }
     }
 }

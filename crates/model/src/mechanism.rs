@@ -11,6 +11,7 @@ mod holds;
 mod initial;
 mod kernels;
 mod part;
+mod same;
 mod turn;
 mod work;
 

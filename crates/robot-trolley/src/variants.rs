@@ -4,7 +4,8 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use pfaff::dynamics::{MotionOptions, RowChoice, SceneCode, Summary};
+use pfaff::dynamics::code::SharedCode;
+use pfaff::dynamics::{MotionOptions, RowChoice, Summary};
 use pfaff::model::{Reaction, Registry};
 use pfaff::{Overrides, Study, StudyError};
 use robot_trolley::generated::automatic;
@@ -65,7 +66,7 @@ fn run_one(deleted: [usize; 2]) -> Result<Variant, Box<dyn std::error::Error>> {
 /// The motion on generated code, with the rows (from 1) that it drops.
 pub(crate) fn generated() -> Result<Variant, Box<dyn std::error::Error>> {
     let mut study = read(&Overrides::default())?;
-    let code: Arc<dyn SceneCode> = Arc::new(automatic::Code);
+    let code: Arc<SharedCode> = Arc::new(automatic::Code);
     study.prepared = study.prepared.with_code(code)?;
     let deleted = match study.prepared.decision.dropped[..] {
         [a, b] => [a + 1, b + 1],

@@ -44,6 +44,10 @@ impl Number {
 }
 
 /// The equations as values of a program.
+#[cfg_attr(
+    not(feature = "modules"),
+    allow(dead_code, reason = "only modules say it")
+)]
 pub(crate) struct Equations {
     pub(crate) code: Sampled,
     /// Names of the inputs, and their meanings.

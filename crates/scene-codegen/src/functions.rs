@@ -14,7 +14,7 @@ use crate::frame::{Seen, may_be_seen_from};
 use crate::subject::Subject;
 
 /// Largest number of operations of a generated function. A compiler takes about a minute for it.
-const LIMIT: usize = 60_000;
+pub(crate) const LIMIT: usize = 60_000;
 
 /// Largest number of bodies whose frames are tried.
 const VIEWS: usize = 12;
@@ -33,6 +33,10 @@ pub(crate) struct Function {
 
 /// Name, arguments and result of a function, the same for every mechanism: arrays with the
 /// constants that are their lengths.
+#[cfg_attr(
+    not(feature = "modules"),
+    allow(dead_code, reason = "only modules say it")
+)]
 pub(crate) struct Signature {
     pub(crate) name: &'static str,
     pub(crate) doc: &'static str,
@@ -116,6 +120,10 @@ enum View {
 }
 
 /// The same for readers, with the name of the body.
+#[cfg_attr(
+    not(feature = "modules"),
+    allow(dead_code, reason = "only modules say it")
+)]
 pub(crate) enum Described {
     Ground,
     GroundAxes,
@@ -124,6 +132,10 @@ pub(crate) enum Described {
 }
 
 /// All functions of a module.
+#[cfg_attr(
+    not(feature = "modules"),
+    allow(dead_code, reason = "only modules say it")
+)]
 pub(crate) struct Functions {
     pub(crate) equations: Equations,
     pub(crate) list: Vec<Function>,

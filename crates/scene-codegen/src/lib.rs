@@ -8,21 +8,28 @@ mod error;
 mod frame;
 mod functions;
 mod inputs;
+#[cfg(feature = "modules")]
 mod module;
 mod parameters;
 mod sampled;
+#[cfg(feature = "modules")]
 mod script;
 mod subject;
+#[cfg(feature = "modules")]
 mod support;
 mod tape;
+#[cfg(feature = "modules")]
 mod time;
 
 pub use error::{CodeError, NotAnInput};
+#[cfg(feature = "modules")]
 pub use module::{Choices, Module, generate};
+#[cfg(feature = "modules")]
 pub use script::to_out_dir;
 pub use subject::{State, Subject};
-pub use tape::Tape;
+pub use tape::{LANES, Tape, TapeCall};
 
+#[cfg(feature = "modules")]
 use std::path::Path;
 
 use model::Registry;
@@ -35,6 +42,7 @@ use assembled::{SceneText, prepared};
 ///
 /// # Errors
 /// If the file cannot be read, the scene is wrong or its run stops, or there is no code for it.
+#[cfg(feature = "modules")]
 pub fn scene(
     path: &Path,
     registry: &Registry,
@@ -54,6 +62,7 @@ pub fn scene(
 ///
 /// # Errors
 /// As [`scene()`].
+#[cfg(feature = "modules")]
 pub fn scene_text(
     name: &str,
     text: &str,

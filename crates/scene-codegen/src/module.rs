@@ -608,7 +608,7 @@ fn face(functions: &Functions, path: &syn::Path, shape: &Shape) -> TokenStream {
             fn with_inputs(
                 &self,
                 values: &[f64],
-            ) -> Option<::std::sync::Arc<dyn #path::SceneCode>> {
+            ) -> Option<::std::sync::Arc<#path::code::SharedCode>> {
                 Some(::std::sync::Arc::new(Self(values.try_into().ok()?)))
             }
         };

@@ -16,6 +16,10 @@ pub(crate) struct Parameter {
 
 /// The numbers that a module takes, and mechanisms in which they have other values.
 #[derive(Clone, Default)]
+#[cfg_attr(
+    not(feature = "modules"),
+    allow(dead_code, reason = "only modules say it")
+)]
 pub(crate) struct Inputs {
     pub(crate) shape: u64,
     pub(crate) keys: Vec<String>,

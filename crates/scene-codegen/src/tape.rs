@@ -1,21 +1,29 @@
-//! The same code without a compiler: a list of operations, executed in sequence. For scenes that
-//! are read at run time, and for tests of runs on generated code; a compiled module is about five
-//! times faster.
+//! The same code without a compiler: lists of instructions, executed for one state or for several
+//! at once, of several runs with numbers of their own. For scenes that are read at run time, for
+//! sweeps, and for tests of runs on generated code.
 
+mod list;
+
+use std::array::from_fn;
 use std::cell::RefCell;
-
 use std::sync::Arc;
 
-use dynamics::SceneCode;
-use dynamics::code::{CodeInput, CodeInputs, CodeSpec};
+use dynamics::code::{CodeFunction, CodeInput, CodeInputs, CodeSpec, SharedCode};
+use dynamics::{CodeMismatch, SceneCode};
 use model::record::{Input, TimeFunction};
-use model::{SpaceKind, System};
-use symbolic::{Op, Program};
+use model::{Mechanism, SpaceKind, System};
 
 use crate::equations::Source;
 use crate::error::CodeError;
-use crate::functions::{Function, Functions};
-use crate::subject::{Subject, rotation};
+use crate::functions::{Functions, LIMIT};
+use crate::subject::Subject;
+use list::{List, PLACES};
+
+include!("support/cos_sin.in");
+include!("support/rotation.in");
+
+/// Number of states that are evaluated at once where there are several: a line of the cache.
+pub const LANES: usize = 8;
 
 /// The code of one mechanism as lists of operations.
 ///
@@ -36,39 +44,139 @@ use crate::subject::{Subject, rotation};
 /// ```
 #[derive(Clone)]
 pub struct Tape {
-    spec: CodeSpec,
-    functions: Arc<[(&'static str, List)]>,
-    times: Vec<TimeFunction>,
+    spec: Arc<CodeSpec>,
+    /// In the order of [`CodeFunction::ALL`].
+    lists: Arc<[List]>,
+    times: Arc<[TimeFunction]>,
     /// For each number of each function of time, the input that it is.
-    numbers_of_times: Vec<Vec<Option<usize>>>,
+    numbers_of_times: Arc<[Vec<Option<usize>>]>,
     /// The numbers of the mechanism that are inputs, and their values.
-    inputs: Option<CodeInputs>,
-    values: Vec<f64>,
-    /// Bodies with quaternions.
-    spatial: usize,
+    inputs: Option<Arc<CodeInputs>>,
+    values: Arc<[f64]>,
+    space: SpaceKind,
 }
 
-/// One function: the sources of its inputs, and its operations.
-struct List {
-    sources: Vec<Source>,
-    program: Program,
-    n_out: usize,
+/// An evaluation of a function of a tape with its numbers, for one of several runs; it keeps its
+/// arrays from one evaluation to the next.
+pub struct TapeCall {
+    /// The tape.
+    pub tape: Tape,
+    /// Time (s).
+    pub t: f64,
+    /// Coordinates.
+    pub q: Vec<f64>,
+    /// Velocities, or what is missed, as the function takes it.
+    pub with: Vec<f64>,
+    /// The results.
+    pub out: Vec<f64>,
+    /// The health, for functions that have one.
+    pub health: f64,
 }
 
-/// The arguments of a function.
-#[derive(Clone, Copy, Default)]
-struct Arguments<'a> {
+impl TapeCall {
+    /// A call of a tape, without arguments yet.
+    #[must_use]
+    pub fn new(tape: Tape) -> Self {
+        Self {
+            tape,
+            t: 0.0,
+            q: Vec::new(),
+            with: Vec::new(),
+            out: Vec::new(),
+            health: f64::NAN,
+        }
+    }
+
+    /// Takes the arguments, and makes room for this number of results.
+    pub fn set(&mut self, t: f64, q: &[f64], with: &[f64], results: usize) {
+        self.t = t;
+        for (to, from) in [(&mut self.q, q), (&mut self.with, with)] {
+            to.clear();
+            to.extend_from_slice(from);
+        }
+        self.out.clear();
+        self.out.resize(results, f64::NAN);
+    }
+}
+
+/// A state with room for results.
+trait Evaluation {
+    fn tape(&self) -> &Tape;
+    fn t(&self) -> f64;
+    fn q(&self) -> &[f64];
+    fn with(&self) -> &[f64];
+    fn take(&mut self, health: f64, out: impl Iterator<Item = f64>);
+}
+
+impl Evaluation for Box<TapeCall> {
+    fn tape(&self) -> &Tape {
+        &self.tape
+    }
+
+    fn t(&self) -> f64 {
+        self.t
+    }
+
+    fn q(&self) -> &[f64] {
+        &self.q
+    }
+
+    fn with(&self) -> &[f64] {
+        &self.with
+    }
+
+    fn take(&mut self, health: f64, out: impl Iterator<Item = f64>) {
+        self.health = health;
+        self.out.iter_mut().zip(out).for_each(|(to, x)| *to = x);
+    }
+}
+
+/// The same with arrays of a caller.
+struct Alone<'a> {
+    tape: &'a Tape,
     t: f64,
     q: &'a [f64],
-    v: &'a [f64],
-    rhs: &'a [f64],
+    with: &'a [f64],
+    out: &'a mut [f64],
+    health: f64,
+}
+
+impl Evaluation for Alone<'_> {
+    fn tape(&self) -> &Tape {
+        self.tape
+    }
+
+    fn t(&self) -> f64 {
+        self.t
+    }
+
+    fn q(&self) -> &[f64] {
+        self.q
+    }
+
+    fn with(&self) -> &[f64] {
+        self.with
+    }
+
+    fn take(&mut self, health: f64, out: impl Iterator<Item = f64>) {
+        self.health = health;
+        self.out.iter_mut().zip(out).for_each(|(to, x)| *to = x);
+    }
+}
+
+/// Values in the places of a list, for L states. Untouched ones take no memory.
+type Places<const L: usize> = Box<[[f64; L]; PLACES]>;
+
+/// Zeros, on the heap from the beginning.
+fn places<const L: usize>() -> Places<L> {
+    let all = vec![[0.0; L]; PLACES].into_boxed_slice();
+    all.try_into()
+        .unwrap_or_else(|_| unreachable!("of this length"))
 }
 
 thread_local! {
-    /// Values of all operations of the last function that ran in this thread.
-    static VALUES: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
-    /// The rotations of its bodies in space.
-    static ROTATIONS: RefCell<Vec<[[f64; 3]; 3]>> = const { RefCell::new(Vec::new()) };
+    static ONE: RefCell<Places<1>> = RefCell::new(places());
+    static MANY: RefCell<Places<LANES>> = RefCell::new(places());
 }
 
 impl Tape {
@@ -87,13 +195,13 @@ impl Tape {
             .iter()
             .map(|f| format!("{}: {}", f.signature.name, f.program.counts()));
         let operations: Vec<String> = operations.collect();
-        let list = list.into_iter().map(|f: Function| {
-            let list = List {
-                sources: equations.sources.clone(),
-                program: f.program,
-                n_out: f.n_out,
-            };
-            (f.signature.name, list)
+        let lists = CodeFunction::ALL.iter().filter_map(|function| {
+            let f = list.iter().find(|f| f.signature.name == function.name())?;
+            let made = List::new(&f.program, &equations.sources, f.n_out);
+            Some(made.ok_or_else(|| CodeError::TooLong {
+                operations: f.program.counts().total(),
+                limit: LIMIT,
+            }))
         });
         let spec = CodeSpec {
             name: prepared.mechanism.name().to_owned().into(),
@@ -115,65 +223,213 @@ impl Tape {
             places: p.places.clone().into(),
         });
         Ok(Self {
-            spec,
-            functions: list.collect(),
+            spec: Arc::new(spec),
+            lists: lists.collect::<Result<_, _>>()?,
             times: times.cloned().collect(),
             numbers_of_times: numbers_of_times
                 .map(|numbers| numbers.iter().map(|r| inputs.at(r.place())).collect())
                 .collect(),
-            values: inputs.described(),
-            inputs: (!inputs.list.is_empty()).then(|| CodeInputs {
-                shape: inputs.shape,
-                list: list_of_inputs.collect(),
+            values: inputs.described().into(),
+            inputs: (!inputs.list.is_empty()).then(|| {
+                Arc::new(CodeInputs {
+                    shape: inputs.shape,
+                    list: list_of_inputs.collect(),
+                })
             }),
-            spatial: match prepared.mechanism.space() {
-                SpaceKind::Space3 => prepared.mechanism.bodies().len(),
-                _ => 0,
-            },
+            space: prepared.mechanism.space(),
         })
     }
 
-    /// Executes one function and returns the health.
-    fn run(&self, name: &str, arguments: Arguments<'_>, out: &mut [f64]) -> f64 {
-        let Some((_, list)) = self.functions.iter().find(|(n, _)| *n == name) else {
-            return f64::NAN;
-        };
-        let mut jets = [[0.0; 3]; 1];
-        let jets: &[[f64; 3]] = match self.times.as_slice() {
-            [] => &[],
-            [one] => {
-                jets[0] = one.jet(arguments.t);
-                &jets
+    /// The same tape with these values of its inputs; `None` if there are not as many.
+    #[must_use]
+    pub fn with_values(&self, values: &[f64]) -> Option<Self> {
+        if self.values.len() != values.len() {
+            return None;
+        }
+        let mut tape = self.clone();
+        tape.values = values.into();
+        let times = self.times.iter().zip(self.numbers_of_times.iter());
+        let times = times.map(|(f, places)| {
+            let mut numbers = f.numbers();
+            for (number, input) in numbers.iter_mut().zip(places) {
+                if let Some(k) = input {
+                    *number = values[*k];
+                }
             }
-            several => &several
-                .iter()
-                .map(|f| f.jet(arguments.t))
-                .collect::<Vec<_>>(),
-        };
-        let mut rotations = ROTATIONS.take();
-        rotations.clear();
-        rotations.extend((0..self.spatial).map(|body| rotation(arguments.q, body)));
-        let health = VALUES.with_borrow_mut(|values| {
-            values.clear();
-            for op in list.program.ops() {
-                let value = match op {
-                    Op::Input(s) => match list.sources[s.index()] {
-                        Source::Number(k) => self.values.get(k).copied().unwrap_or(f64::NAN),
-                        source => read(source, arguments, jets, &rotations),
-                    },
-                    op => op.evaluate(|v| values[v.index()], |_| f64::NAN),
-                };
-                values.push(value);
-            }
-            let outputs = list.program.outputs();
-            for (out, v) in out.iter_mut().zip(&outputs[..list.n_out]) {
-                *out = values[v.index()];
-            }
-            let shares = outputs[list.n_out..].iter();
-            shares.fold(f64::INFINITY, |health, v| least(health, values[v.index()]))
+            f.with_numbers(&numbers)
         });
-        ROTATIONS.set(rotations);
-        health
+        tape.times = times.collect::<Option<_>>()?;
+        Some(tape)
+    }
+
+    /// The tape with the numbers of a mechanism, which are no inputs any more.
+    ///
+    /// # Errors
+    /// [`CodeMismatch`]: the mechanism has other equations.
+    pub fn of_mechanism(&self, mechanism: &Mechanism) -> Result<Self, CodeMismatch> {
+        let name = &self.spec.name;
+        let Some(inputs) = &self.inputs else {
+            return Ok(self.clone());
+        };
+        let values = inputs.of(name, mechanism)?;
+        let found = values.len();
+        let own = self.with_values(&values).map(|own| Self {
+            inputs: None,
+            ..own
+        });
+        own.ok_or_else(|| CodeMismatch::Inputs {
+            name: name.to_string(),
+            found,
+        })
+    }
+
+    /// Evaluates a function of one tape for several runs, each with numbers of its own: the results
+    /// of each are the same bits as alone. Calls of a tape that is no clone of the first one, with
+    /// other values, get a health of NaN.
+    pub fn evaluate_all(function: CodeFunction, calls: &mut [Box<TapeCall>]) {
+        let Some(lists) = calls.first().map(|call| Arc::clone(&call.tape.lists)) else {
+            return;
+        };
+        let Some(list) = lists.get(function.index()) else {
+            return;
+        };
+        for calls in calls.chunks_mut(LANES) {
+            if calls.len() == 1 {
+                ONE.with_borrow_mut(|places| evaluate(list, places, calls));
+            } else {
+                MANY.with_borrow_mut(|places| wide(list, places, calls));
+            }
+            for call in calls.iter_mut() {
+                if !Arc::ptr_eq(&call.tape.lists, &lists) {
+                    call.health = f64::NAN;
+                }
+            }
+        }
+    }
+
+    /// Evaluates one function and returns the health.
+    fn run(
+        &self,
+        function: CodeFunction,
+        t: f64,
+        (q, with): (&[f64], &[f64]),
+        out: &mut [f64],
+    ) -> f64 {
+        let mut call = Alone {
+            tape: self,
+            t,
+            q,
+            with,
+            out,
+            health: f64::NAN,
+        };
+        if let Some(list) = self.lists.get(function.index()) {
+            let calls = std::slice::from_mut(&mut call);
+            ONE.with_borrow_mut(|places| evaluate(list, places, calls));
+        }
+        call.health
+    }
+
+    /// Value and derivatives of a function of time; NaN if there is no such function.
+    fn jet(&self, function: usize, t: f64) -> [f64; 3] {
+        self.times.get(function).map_or([f64::NAN; 3], |f| f.jet(t))
+    }
+}
+
+/// [`evaluate`] with the vectors of the processor that runs it.
+fn wide(list: &List, places: &mut [[f64; LANES]; PLACES], calls: &mut [Box<TapeCall>]) {
+    struct Task<'t> {
+        list: &'t List,
+        places: &'t mut [[f64; LANES]; PLACES],
+        calls: &'t mut [Box<TapeCall>],
+    }
+    impl pulp::NullaryFnOnce for Task<'_> {
+        type Output = ();
+
+        #[inline(always)]
+        fn call(self) {
+            evaluate(self.list, self.places, self.calls);
+        }
+    }
+    pulp::Arch::new().dispatch(Task {
+        list,
+        places,
+        calls,
+    });
+}
+
+/// Evaluates a list for at most L calls, at least one; places beyond those of the calls repeat the
+/// first one.
+#[inline(always)]
+fn evaluate<const L: usize>(
+    list: &List,
+    places: &mut [[f64; L]; PLACES],
+    calls: &mut [impl Evaluation],
+) {
+    let of = |x: &[f64], k: usize| x.get(k).copied().unwrap_or(f64::NAN);
+    let call = |l: usize| calls.get(l).unwrap_or(&calls[0]);
+    let mut known: Option<(usize, [[f64; 3]; L])> = None;
+    for &(source, place) in &list.inputs {
+        places[place] = match source {
+            Source::Mechanism(Input::Coordinate(k)) => from_fn(|l| of(call(l).q(), k)),
+            Source::Mechanism(Input::Velocity(k)) | Source::Rhs(k) => {
+                from_fn(|l| of(call(l).with(), k))
+            }
+            Source::Number(k) => from_fn(|l| of(&call(l).tape().values, k)),
+            Source::Mechanism(Input::Function {
+                function,
+                derivative,
+            }) => {
+                let jets = match known {
+                    Some((of, jets)) if of == function => jets,
+                    _ => from_fn(|l| {
+                        let call = call(l);
+                        call.tape().jet(function, call.t())
+                    }),
+                };
+                known = Some((function, jets));
+                jets.map(|jet| jet[derivative])
+            }
+            Source::Mechanism(Input::Cos(_) | Input::Sin(_) | Input::Rotation { .. }) => continue,
+        };
+    }
+    for &(k, [cos, sin]) in &list.angles {
+        let x: [f64; L] = from_fn(|l| of(call(l).q(), k));
+        let (mut c, mut s) = ([0.0; L], [0.0; L]);
+        if x.iter().all(|x| x.abs() < 1e6) {
+            for l in 0..L {
+                [c[l], s[l]] = cos_sin_of_small(x[l]);
+            }
+        } else {
+            for l in 0..L {
+                [c[l], s[l]] = cos_sin(x[l]);
+            }
+        }
+        for (place, value) in [(cos, c), (sin, s)] {
+            if let Some(place) = place {
+                places[place] = value;
+            }
+        }
+    }
+    for (body, entries) in &list.rotations {
+        let first = calls[0].tape().space.coordinates(*body).start + 3;
+        let e: [[f64; L]; 4] = std::array::from_fn(|i| from_fn(|l| of(call(l).q(), first + i)));
+        let mut all = [[0.0; L]; 9];
+        for l in 0..L {
+            let one = rotation([e[0][l], e[1][l], e[2][l], e[3][l]]);
+            for (all, x) in all.iter_mut().zip(one) {
+                all[l] = x;
+            }
+        }
+        for &(entry, place) in entries {
+            places[place] = all[entry];
+        }
+    }
+    list.execute(places);
+    for (l, call) in calls.iter_mut().enumerate() {
+        let shares = list.shares.iter().map(|&place| places[place][l]);
+        let health = shares.fold(f64::INFINITY, least);
+        call.take(health, list.out.iter().map(|&place| places[place][l]));
     }
 }
 
@@ -182,109 +438,41 @@ fn least(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
 }
 
-/// The value of an input; NaN if the caller's arrays are too short.
-fn read(source: Source, a: Arguments<'_>, jets: &[[f64; 3]], rotations: &[[[f64; 3]; 3]]) -> f64 {
-    let of = |x: &[f64], k: usize| x.get(k).copied().unwrap_or(f64::NAN);
-    match source {
-        Source::Mechanism(Input::Coordinate(k)) => of(a.q, k),
-        Source::Mechanism(Input::Cos(k)) => of(a.q, k).cos(),
-        Source::Mechanism(Input::Sin(k)) => of(a.q, k).sin(),
-        Source::Mechanism(Input::Rotation { body, row, column }) => {
-            rotations.get(body).map_or(f64::NAN, |rot| rot[row][column])
-        }
-        Source::Mechanism(Input::Velocity(k)) => of(a.v, k),
-        Source::Mechanism(Input::Function {
-            function,
-            derivative,
-        }) => jets.get(function).map_or(f64::NAN, |jet| jet[derivative]),
-        Source::Rhs(k) => of(a.rhs, k),
-        Source::Number(_) => f64::NAN,
-    }
-}
-
 impl SceneCode for Tape {
     fn spec(&self) -> &CodeSpec {
         &self.spec
     }
 
     fn inputs(&self) -> Option<&CodeInputs> {
-        self.inputs.as_ref()
+        self.inputs.as_deref()
     }
 
-    fn with_inputs(&self, values: &[f64]) -> Option<Arc<dyn SceneCode>> {
-        if self.inputs.as_ref()?.list.len() != values.len() {
-            return None;
-        }
-        let mut tape = self.clone();
-        tape.values = values.to_vec();
-        for (f, places) in tape.times.iter_mut().zip(&self.numbers_of_times) {
-            let mut numbers = f.numbers();
-            for (number, input) in numbers.iter_mut().zip(places) {
-                if let Some(k) = input {
-                    *number = values[*k];
-                }
-            }
-            *f = f.with_numbers(&numbers)?;
-        }
-        Some(Arc::new(tape))
+    fn with_inputs(&self, values: &[f64]) -> Option<Arc<SharedCode>> {
+        self.inputs.as_ref()?;
+        Some(Arc::new(self.with_values(values)?))
     }
 
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64 {
-        let arguments = Arguments {
-            t,
-            q,
-            v,
-            ..Arguments::default()
-        };
-        self.run("acceleration", arguments, a)
+        self.run(CodeFunction::Acceleration, t, (q, v), a)
     }
 
     fn multipliers(&self, t: f64, q: &[f64], v: &[f64], lambda: &mut [f64]) -> f64 {
-        let arguments = Arguments {
-            t,
-            q,
-            v,
-            ..Arguments::default()
-        };
-        self.run("multipliers", arguments, lambda)
+        self.run(CodeFunction::Multipliers, t, (q, v), lambda)
     }
 
     fn phi(&self, t: f64, q: &[f64], phi: &mut [f64]) {
-        let arguments = Arguments {
-            t,
-            q,
-            ..Arguments::default()
-        };
-        self.run("phi", arguments, phi);
+        self.run(CodeFunction::Phi, t, (q, &[]), phi);
     }
 
     fn velocity_residual(&self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]) {
-        let arguments = Arguments {
-            t,
-            q,
-            v,
-            ..Arguments::default()
-        };
-        self.run("velocity_residual", arguments, out);
+        self.run(CodeFunction::VelocityResidual, t, (q, v), out);
     }
 
     fn position_correction(&self, t: f64, q: &[f64], phi: &[f64], dq: &mut [f64]) -> f64 {
-        let arguments = Arguments {
-            t,
-            q,
-            rhs: phi,
-            ..Arguments::default()
-        };
-        self.run("position_correction", arguments, dq)
+        self.run(CodeFunction::PositionCorrection, t, (q, phi), dq)
     }
 
     fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64 {
-        let arguments = Arguments {
-            t,
-            q,
-            rhs: residual,
-            ..Arguments::default()
-        };
-        self.run("velocity_correction", arguments, dv)
+        self.run(CodeFunction::VelocityCorrection, t, (q, residual), dv)
     }
 }

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
+use dynamics::code::SharedCode;
 use dynamics::{CodeMismatch, KeptRowMotion, Prepared, SceneCode, simulate};
 use linalg::KeptRowSaddle;
 use model::{Registry, System};
@@ -96,7 +97,7 @@ fn on_rows_of(code: &dyn SceneCode, mut study: Study) -> Study {
 }
 
 /// The code with the numbers of a mechanism.
-fn of(code: &dyn SceneCode, prepared: &Prepared) -> Arc<dyn SceneCode> {
+fn of(code: &dyn SceneCode, prepared: &Prepared) -> Arc<SharedCode> {
     let inputs = code.inputs().expect("it takes numbers");
     let values = inputs.of("code", &prepared.mechanism).expect("its numbers");
     code.with_inputs(&values).expect("as many")
@@ -261,7 +262,7 @@ fn runs_take_the_numbers_of_their_scenes() {
         last
     };
     for shares in SHARES {
-        let cases: [(&str, &[&str], Arc<dyn SceneCode>); 2] = [
+        let cases: [(&str, &[&str], Arc<SharedCode>); 2] = [
             (
                 FOUR_BAR,
                 &KEYS_OF_FOUR_BAR,
@@ -285,7 +286,7 @@ fn runs_take_the_numbers_of_their_scenes() {
 /// of the code; rows that somebody chose stay.
 #[test]
 fn rows_that_nobody_chose_are_those_of_the_code() {
-    let code = || -> Arc<dyn SceneCode> { Arc::new(arm::Code(arm::DESCRIBED)) };
+    let code = || -> Arc<SharedCode> { Arc::new(arm::Code(arm::DESCRIBED)) };
     let text = ARM.replace("Jxx = 0.1", "Jxx = 0.118");
     let alone = study(&text).prepared;
     assert_ne!(alone.decision.kept, arm::KEPT);
@@ -465,7 +466,7 @@ fn a_list_of_operations_takes_the_same_numbers_as_a_module() {
 /// shows it.
 #[test]
 fn a_scene_that_differs_in_another_number_is_refused() {
-    let code = || -> Arc<dyn SceneCode> { Arc::new(four_bar::Code(four_bar::DESCRIBED)) };
+    let code = || -> Arc<SharedCode> { Arc::new(four_bar::Code(four_bar::DESCRIBED)) };
     for (from, to) in [
         ("mass = 1.8", "mass = 1.9"),
         (

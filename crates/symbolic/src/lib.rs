@@ -21,6 +21,7 @@ pub mod evaluate;
 pub mod graph;
 mod lower;
 mod order;
+#[cfg(feature = "print")]
 pub mod print;
 pub mod program;
 mod substitute;
@@ -28,5 +29,6 @@ mod substitute;
 pub use differentiate::Derivation;
 pub use evaluate::Number;
 pub use graph::{Expr, Function, Graph, Node, Symbol};
+#[cfg(feature = "print")]
 pub use print::{Printer, Scalar};
 pub use program::{Binary, Counts, Op, Program, Value};

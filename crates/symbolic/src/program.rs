@@ -185,7 +185,7 @@ impl Value {
 
 impl Op {
     /// Its operands.
-    pub(crate) fn operands(&self) -> impl Iterator<Item = Value> + use<> {
+    pub fn operands(&self) -> impl Iterator<Item = Value> + use<> {
         let (a, b) = match *self {
             Op::Number(_) | Op::Input(_) => (None, None),
             Op::Binary(_, a, b) => (Some(a), Some(b)),

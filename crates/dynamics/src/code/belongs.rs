@@ -8,8 +8,8 @@ use linalg::GRADED_MASSES;
 use model::words::listed;
 use model::{Mechanism, RecordedEquations, SpaceKind, System};
 
-use super::SceneCode;
 use super::inputs::{CodeInput, CodeInputs};
+use super::{SceneCode, SharedCode};
 use crate::error::MotionFault;
 use crate::limits::{CODE_STATES, DISTANCE, LEAVE, SAME_VALUES, SPEED};
 use crate::motion::KeptRowMotion;
@@ -198,11 +198,20 @@ impl CodeInputs {
     }
 }
 
+/// Where values are compared.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum At {
+    /// At the start.
+    Start,
+    /// There, around it, and between break times.
+    ManyStates,
+}
+
 /// The code with the numbers of a mechanism, if it takes any.
 fn for_mechanism(
-    code: Arc<dyn SceneCode>,
+    code: Arc<SharedCode>,
     mechanism: &Mechanism,
-) -> Result<Arc<dyn SceneCode>, CodeMismatch> {
+) -> Result<Arc<SharedCode>, CodeMismatch> {
     let name = &code.spec().name;
     let Some(inputs) = code.inputs() else {
         return Ok(code);
@@ -223,7 +232,20 @@ impl Prepared {
     ///
     /// # Errors
     /// [`CodeMismatch`], if the code belongs to another mechanism or to other rows.
-    pub fn with_code(self, code: Arc<dyn SceneCode>) -> Result<Self, CodeMismatch> {
+    pub fn with_code(self, code: Arc<SharedCode>) -> Result<Self, CodeMismatch> {
+        self.with_code_compared(code, At::ManyStates)
+    }
+
+    /// Like [`Prepared::with_code`] for code that has passed that with a mechanism of the same
+    /// constraints ([`Mechanism::has_constraints_of`]): values are compared at the start alone.
+    ///
+    /// # Errors
+    /// As [`Prepared::with_code`].
+    pub fn with_known_code(self, code: Arc<SharedCode>) -> Result<Self, CodeMismatch> {
+        self.with_code_compared(code, At::Start)
+    }
+
+    fn with_code_compared(self, code: Arc<SharedCode>, at: At) -> Result<Self, CodeMismatch> {
         let code = for_mechanism(code, &self.mechanism)?;
         let spec = code.spec();
         let moved = code
@@ -231,7 +253,7 @@ impl Prepared {
             .and_then(|_| self.on_rows(&spec.kept, &spec.position_kept));
         let own = moved.unwrap_or(self);
         check_spec(&own, &*code)?;
-        check_values(&own, &*code)?;
+        check_values(&own, &*code, at)?;
         Ok(Self {
             code: Some(code),
             ..own
@@ -242,7 +264,7 @@ impl Prepared {
     ///
     /// # Errors
     /// [`NoCode`]
-    pub fn code_for(&self, options: &MotionOptions) -> Result<&Arc<dyn SceneCode>, NoCode> {
+    pub fn code_for(&self, options: &MotionOptions) -> Result<&Arc<SharedCode>, NoCode> {
         let code = self.code.as_ref().ok_or(NoCode::None)?;
         match options.method {
             Method::Auto | Method::Dopri5 | Method::Tsit5 | Method::Dop853 => {}
@@ -351,7 +373,7 @@ fn times(mechanism: &Mechanism) -> Vec<f64> {
     ends.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect()
 }
 
-fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMismatch> {
+fn check_values(prepared: &Prepared, code: &dyn SceneCode, at: At) -> Result<(), CodeMismatch> {
     let mut motion = KeptRowMotion::new(prepared)?;
     let mut a = vec![0.0; prepared.v.len()];
     let health = code.acceleration(0.0, &prepared.q, &prepared.v, &mut a);
@@ -362,6 +384,9 @@ fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMis
         });
     }
     compare(&mut motion, code, (0.0, &prepared.q, &prepared.v))?;
+    if at == At::Start {
+        return Ok(());
+    }
     let times = times(&prepared.mechanism);
     for k in 0..CODE_STATES.max(times.len()) {
         // Numbers that coincide with no symmetry of a mechanism.

@@ -53,15 +53,14 @@ impl CodeProjection {
     /// is not reliable.
     pub(crate) fn project(
         &mut self,
-        GeneratedCode(code): &GeneratedCode,
+        GeneratedCode(code): &GeneratedCode<'_>,
         mechanism: &Mechanism,
         t: f64,
         (q, v): (&mut [f64], &mut [f64]),
     ) -> Result<Correction, Doubt> {
         self.before.0.copy_from_slice(q);
         self.before.1.copy_from_slice(v);
-        let code = &**code;
-        let projected = self.project_both(code, mechanism, t, (&mut *q, &mut *v));
+        let projected = self.project_both(*code, mechanism, t, (&mut *q, &mut *v));
         if projected.is_err() {
             q.copy_from_slice(&self.before.0);
             v.copy_from_slice(&self.before.1);

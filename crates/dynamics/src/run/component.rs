@@ -11,6 +11,7 @@ use super::equations::RunEquations;
 use super::integration::Run;
 use super::sample::AtRows;
 use super::summary::{Failure, Summary};
+use crate::code::SceneCode;
 use crate::error::{MotionError, MotionFault};
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
@@ -28,6 +29,7 @@ pub(super) fn run_component(
     plan: &Plan<'_>,
     component: usize,
     (watch, stop): (&Watch<'_>, &Stop<'_>),
+    evaluator: Option<&dyn SceneCode>,
     row: &mut ShowRow<'_>,
 ) -> Result<Summary, Box<Failure>> {
     if stop() {
@@ -40,7 +42,7 @@ pub(super) fn run_component(
         method,
         ..plan.options().clone()
     };
-    let begun = KeptRowMotion::with(prepared, options).and_then(|mut motion| {
+    let begun = KeptRowMotion::evaluated(prepared, options, evaluator).and_then(|mut motion| {
         motion.begin(0.0, &mut prepared.q.clone())?;
         Ok(motion)
     });

@@ -205,6 +205,6 @@ impl OfMotion<'_, '_> {
 pub(super) fn left_out(mechanism: &Mechanism, group: usize) -> Reaction {
     let component = mechanism.layout().groups[group].spec.component;
     let space = mechanism.space();
-    let unknown = vec![f64::NAN; space.n_v()];
-    Reaction::new(space, &unknown, component.map(|_| f64::NAN))
+    let unknown = [f64::NAN; 6];
+    Reaction::new(space, &unknown[..space.n_v()], component.map(|_| f64::NAN))
 }

@@ -58,7 +58,7 @@ pub(super) fn run(
                 let mut row = |sample: &mut Sample<'_, '_>| {
                     Ok(permit.leave_for(|| tell(sample, |row| told.send(row).is_ok())))
                 };
-                run_component(plan, k, watched, &mut row)
+                run_component(plan, k, watched, None, &mut row)
             };
             let places = component.places().unwrap_or(&whole);
             let (rows, handle) = match thread::Builder::new().spawn_scoped(scope, work) {
@@ -69,7 +69,7 @@ pub(super) fn run(
                     let (told, rows) = channel();
                     let send = |own| told.send(own).is_ok();
                     let mut row = |sample: &mut Sample<'_, '_>| Ok(tell(sample, send));
-                    let outcome = run_component(plan, k, watched, &mut row);
+                    let outcome = run_component(plan, k, watched, None, &mut row);
                     (rows, Err(outcome))
                 }
             };

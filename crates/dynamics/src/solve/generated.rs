@@ -1,14 +1,12 @@
 //! Accelerations and multipliers by generated code, with a check of their reliability.
 
-use std::sync::Arc;
-
 use super::{Accelerations, State};
 use crate::code::SceneCode;
 use crate::guards::GUARDED;
 use crate::limits::LEAVE;
 
-/// Code that was generated for a mechanism.
-pub(crate) struct GeneratedCode(pub(crate) Arc<dyn SceneCode>);
+/// Code that was generated for a mechanism, or what evaluates it.
+pub(crate) struct GeneratedCode<'m>(pub(crate) &'m dyn SceneCode);
 
 /// Reason why a result of generated code is not reliable.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +56,7 @@ impl Doubt {
     }
 }
 
-impl Accelerations for GeneratedCode {
+impl Accelerations for GeneratedCode<'_> {
     type Fault = Doubt;
 
     fn accelerations(&mut self, State { t, q, v }: State<'_>, a: &mut [f64]) -> Result<(), Doubt> {

@@ -7,8 +7,6 @@
 //! last two accepted states, because it predicts singular configurations from the pivots of two
 //! states.
 
-use std::sync::Arc;
-
 use model::System;
 
 use super::passage::Now;
@@ -57,8 +55,8 @@ impl Accepted {
 }
 
 /// Generated code of a motion, and whether it is in use.
-pub(crate) struct CodeSwitch {
-    code: GeneratedCode,
+pub(crate) struct CodeSwitch<'m> {
+    code: GeneratedCode<'m>,
     projection: CodeProjection,
     phase: Phase,
     /// Evaluations by generated code since the last accepted step.
@@ -82,10 +80,10 @@ pub(crate) struct Departure {
     pub(crate) is_within_step: bool,
 }
 
-impl CodeSwitch {
+impl<'m> CodeSwitch<'m> {
     /// Uses generated code from the state q at time t on.
     pub(crate) fn new(
-        code: Arc<dyn SceneCode>,
+        code: &'m dyn SceneCode,
         equations: &mut KeptEquations<'_>,
         (t, q): (f64, &[f64]),
     ) -> Self {
@@ -105,7 +103,7 @@ impl CodeSwitch {
     }
 
     /// The generated code, if it is in use.
-    pub(crate) fn in_use(&mut self) -> Option<&mut GeneratedCode> {
+    pub(crate) fn in_use(&mut self) -> Option<&mut GeneratedCode<'m>> {
         (self.phase == Phase::Code).then_some(&mut self.code)
     }
 

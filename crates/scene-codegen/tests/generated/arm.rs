@@ -2449,7 +2449,7 @@ impl dynamics::SceneCode for Code {
     fn with_inputs(
         &self,
         values: &[f64],
-    ) -> Option<::std::sync::Arc<dyn dynamics::SceneCode>> {
+    ) -> Option<::std::sync::Arc<dynamics::code::SharedCode>> {
         Some(::std::sync::Arc::new(Self(values.try_into().ok()?)))
     }
 }

@@ -1,0 +1,482 @@
+//! Straight-line code as a list of instructions on storage places, executed for several states at
+//! once: what is read of an instruction serves all of them. A state gets the same bits in whatever
+//! company it is.
+//!
+//! A product that is used once, by a sum or a difference, is one instruction with it; both round as
+//! they would apart. Places are used again once their value is not needed any more, so that all of
+//! them stay in the nearest cache.
+
+use std::array::from_fn;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use model::record::Input;
+use symbolic::{Binary, Function, Number as _, Op, Program, Value};
+
+use crate::equations::Source;
+
+/// Index of a storage place. No index is too large for [`PLACES`], so none is checked.
+type Place = u16;
+
+/// Number of storage places, of which a list uses the first ones.
+pub(super) const PLACES: usize = 1 << 16;
+
+/// Operands and result of a product with a sum, rounded after the product and after the sum: each
+/// sum, difference and product of a program. A sum has the factor b = 1, a product c = −0, which
+/// change no bit.
+#[derive(Clone, Copy, Debug)]
+struct Sum {
+    a: Place,
+    b: Place,
+    c: Place,
+    to: Place,
+}
+
+/// The signs of such a sum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Signs {
+    /// `c + a·b`
+    Plus,
+    /// `c − a·b`
+    Minus,
+    /// `a·b − c`
+    Reversed,
+}
+
+/// What is done in sequence.
+#[derive(Clone, Debug)]
+enum Do {
+    Sums(Signs, Vec<Sum>),
+    Div { a: Place, b: Place, to: Place },
+    Call { f: Function, a: Place, to: Place },
+}
+
+/// One function as a list.
+#[derive(Default)]
+pub(super) struct List {
+    /// Where inputs come from, and their places; those of rotations are apart.
+    pub(super) inputs: Vec<(Source, usize)>,
+    /// Coordinates with the places of their cosines and sines.
+    pub(super) angles: Vec<(usize, [Option<usize>; 2])>,
+    /// Bodies in space with entries of their rotations, by rows, and the places of these.
+    pub(super) rotations: Vec<(usize, Vec<(usize, usize)>)>,
+    constants: Vec<(f64, Place)>,
+    steps: Vec<Do>,
+    /// Places of the results.
+    pub(super) out: Vec<usize>,
+    /// Places of the relative sizes of divisors.
+    pub(super) shares: Vec<usize>,
+}
+
+impl List {
+    /// The list of a program whose first `n_out` outputs are results, the others relative sizes of
+    /// divisors; `sources` tells where its inputs come from. `None` if it needs too many places.
+    pub(super) fn new(program: &Program, sources: &[Source], n_out: usize) -> Option<Self> {
+        let mut made = Maker::new(program)?;
+        let mut list = Self::default();
+        // Inputs and constants are there before the first step, so they have places that no value
+        // has had before.
+        for (k, op) in program.ops().iter().enumerate() {
+            match op {
+                Op::Input(s) => {
+                    let place = made.take(k)?;
+                    list.input(sources[s.index()], usize::from(place));
+                }
+                Op::Number(bits) => {
+                    let place = made.take(k)?;
+                    list.constants.push((f64::from_bits(*bits), place));
+                }
+                _ => {}
+            }
+        }
+        list.constants.extend([(1.0, ONE), (-0.0, NOTHING)]);
+        for k in order(program, &made.joined) {
+            made.step(k, &mut list.steps)?;
+        }
+        let outputs = program.outputs().iter();
+        list.out = outputs.map(|v| usize::from(made.of(*v))).collect();
+        list.shares = list.out.split_off(n_out);
+        Some(list)
+    }
+
+    fn input(&mut self, source: Source, place: usize) {
+        let angle = |list: &mut Self, k: usize, which: usize| {
+            let known = list.angles.iter().position(|(at, _)| *at == k);
+            let known = known.unwrap_or_else(|| {
+                list.angles.push((k, [None; 2]));
+                list.angles.len() - 1
+            });
+            list.angles[known].1[which] = Some(place);
+        };
+        match source {
+            Source::Mechanism(Input::Cos(k)) => angle(self, k, 0),
+            Source::Mechanism(Input::Sin(k)) => angle(self, k, 1),
+            Source::Mechanism(Input::Rotation { body, row, column }) => {
+                let known = self.rotations.iter().position(|(at, _)| *at == body);
+                let known = known.unwrap_or_else(|| {
+                    self.rotations.push((body, Vec::new()));
+                    self.rotations.len() - 1
+                });
+                self.rotations[known].1.push((3 * row + column, place));
+            }
+            source => self.inputs.push((source, place)),
+        }
+    }
+
+    /// Executes all steps on L states, whose inputs are in their places.
+    #[inline(always)]
+    pub(super) fn execute<const L: usize>(&self, places: &mut [[f64; L]; PLACES]) {
+        for &(x, to) in &self.constants {
+            places[usize::from(to)] = [x; L];
+        }
+        for step in &self.steps {
+            match step {
+                Do::Sums(Signs::Plus, sums) => each(sums, places, |ab, c| c + ab),
+                Do::Sums(Signs::Minus, sums) => each(sums, places, |ab, c| c - ab),
+                Do::Sums(Signs::Reversed, sums) => each(sums, places, |ab, c| ab - c),
+                &Do::Div { a, b, to } => {
+                    let [a, b] = [a, b].map(|k| places[usize::from(k)]);
+                    places[usize::from(to)] = from_fn(|l| a[l] / b[l]);
+                }
+                &Do::Call { f, a, to } => {
+                    places[usize::from(to)] = places[usize::from(a)].map(|a| a.call(f));
+                }
+            }
+        }
+    }
+}
+
+/// Sums of one kind, in sequence.
+#[inline(always)]
+fn each<const L: usize>(
+    sums: &[Sum],
+    places: &mut [[f64; L]; PLACES],
+    f: impl Fn(f64, f64) -> f64,
+) {
+    for sum in sums {
+        let [a, b, c] = [sum.a, sum.b, sum.c].map(|k| places[usize::from(k)]);
+        places[usize::from(sum.to)] = from_fn(|l| f(a[l] * b[l], c[l]));
+    }
+}
+
+/// The place of the constant 1.
+const ONE: Place = 0;
+/// The place of the constant −0.
+const NOTHING: Place = 1;
+
+/// What of a program has been made into a list so far.
+struct Maker<'p> {
+    program: &'p Program,
+    /// The place of each value that has one.
+    places: Vec<Option<Place>>,
+    /// How often each value is still read: by the operations that follow and as an output.
+    reads: Vec<usize>,
+    /// Products that are part of the sum that reads them.
+    joined: Vec<bool>,
+    free: Vec<Place>,
+    /// Number of places in use so far.
+    count: usize,
+}
+
+impl<'p> Maker<'p> {
+    fn new(program: &'p Program) -> Option<Self> {
+        let ops = program.ops();
+        let reads = program.uses();
+        let mut joined = vec![false; ops.len()];
+        for op in ops {
+            if let Op::Binary(Binary::Add | Binary::Sub, a, b) = *op {
+                let is_own = |v: &Value| reads[v.index()] == 1 && factors(program, *v).is_some();
+                if let Some(product) = [a, b].into_iter().find(is_own) {
+                    joined[product.index()] = true;
+                }
+            }
+        }
+        Some(Self {
+            program,
+            places: vec![None; ops.len()],
+            reads,
+            joined,
+            free: Vec::new(),
+            count: usize::from(NOTHING) + 1,
+        })
+    }
+
+    /// Gives a value a place that no other value needs; `None` if there is none left.
+    fn take(&mut self, k: usize) -> Option<Place> {
+        let place = match self.free.pop() {
+            Some(place) => place,
+            None => {
+                self.count += 1;
+                Place::try_from(self.count - 1).ok()?
+            }
+        };
+        self.places[k] = Some(place);
+        Some(place)
+    }
+
+    fn of(&self, v: Value) -> Place {
+        self.places[v.index()].expect("operands precede their uses")
+    }
+
+    /// Reads a value; its place is free after its last use.
+    fn read(&mut self, v: Value) -> Place {
+        let place = self.of(v);
+        self.reads[v.index()] -= 1;
+        let is_constant = self.program.as_number(v).is_some();
+        if self.reads[v.index()] == 0 && !is_constant {
+            self.free.push(place);
+        }
+        place
+    }
+
+    /// Adds the step of an operation. `None` if there are no places left.
+    fn step(&mut self, k: usize, steps: &mut Vec<Do>) -> Option<()> {
+        let signs = signs(self.program, &self.joined, k);
+        let (a, b, c) = match self.program.ops()[k] {
+            Op::Input(_) | Op::Number(_) => return Some(()),
+            Op::Call(f, a) => {
+                let a = self.read(a);
+                let to = self.take(k)?;
+                steps.push(Do::Call { f, a, to });
+                return Some(());
+            }
+            Op::Binary(Binary::Div, a, b) => {
+                let (a, b) = (self.read(a), self.read(b));
+                let to = self.take(k)?;
+                steps.push(Do::Div { a, b, to });
+                return Some(());
+            }
+            Op::Neg(a) => (self.read(a), ONE, NOTHING),
+            Op::Binary(Binary::Mul, a, b) => (self.read(a), self.read(b), NOTHING),
+            Op::Binary(_, a, b) => {
+                let (product, other) = if self.joined[a.index()] {
+                    (a, b)
+                } else {
+                    (b, a)
+                };
+                let (a, b) = match factors(self.program, product) {
+                    Some((a, b)) if self.joined[product.index()] => (self.read(a), self.read(b)),
+                    _ => (self.read(product), ONE),
+                };
+                (a, b, self.read(other))
+            }
+        };
+        let to = self.take(k)?;
+        let sum = Sum { a, b, c, to };
+        match steps.last_mut() {
+            Some(Do::Sums(last, sums)) if *last == signs => sums.push(sum),
+            _ => steps.push(Do::Sums(signs, vec![sum])),
+        }
+        Some(())
+    }
+}
+
+/// The signs of a sum, difference or product.
+fn signs(program: &Program, joined: &[bool], k: usize) -> Signs {
+    match program.ops()[k] {
+        Op::Binary(Binary::Sub, a, _) if joined[a.index()] => Signs::Reversed,
+        Op::Binary(Binary::Sub, ..) | Op::Neg(_) => Signs::Minus,
+        _ => Signs::Plus,
+    }
+}
+
+/// Number of instructions in which a processor has the result of one: until then others come first.
+const LATENCY: usize = 5;
+
+/// The operations in an order in which each has to wait for another one as seldom as possible, and
+/// those of one kind follow each other: of those that need not wait the one with the longest chain
+/// behind it is first. Inputs, constants and joined products are left out.
+fn order(program: &Program, joined: &[bool]) -> Vec<usize> {
+    let ops = program.ops();
+    let is_step = |k: usize| !joined[k] && !matches!(ops[k], Op::Input(_) | Op::Number(_));
+    let operands = |k: usize| {
+        let own = ops[k].operands();
+        let opened = own.flat_map(|v| {
+            let (a, b) = match factors(program, v) {
+                Some((a, b)) if joined[v.index()] => (a, Some(b)),
+                _ => (v, None),
+            };
+            [Some(a), b].into_iter().flatten()
+        });
+        opened.map(Value::index).filter(|k| is_step(*k))
+    };
+    let mut chain = vec![0_usize; ops.len()];
+    let mut readers: Vec<Vec<usize>> = vec![Vec::new(); ops.len()];
+    let mut missing = vec![0_usize; ops.len()];
+    for k in (0..ops.len()).rev().filter(|k| is_step(*k)) {
+        for of in operands(k) {
+            chain[of] = chain[of].max(chain[k] + 1);
+            readers[of].push(k);
+            missing[k] += 1;
+        }
+    }
+    let kind = |k: usize| match ops[k] {
+        Op::Binary(Binary::Div, ..) => 3,
+        Op::Call(..) => 4,
+        _ => signs(program, joined, k) as usize,
+    };
+    let steps: Vec<usize> = (0..ops.len()).filter(|k| is_step(*k)).collect();
+    let mut ready: [BinaryHeap<(usize, Reverse<usize>)>; 5] = Default::default();
+    // Those whose operands are on the way, with the time when these are there.
+    let mut waiting: BinaryHeap<Reverse<(usize, usize)>> = BinaryHeap::new();
+    let mut from = vec![0_usize; ops.len()];
+    waiting.extend(
+        steps
+            .iter()
+            .filter(|k| missing[**k] == 0)
+            .map(|k| Reverse((0, *k))),
+    );
+    let (mut now, mut last) = (0, 0);
+    let mut order = Vec::with_capacity(steps.len());
+    while order.len() < steps.len() {
+        while let Some(&Reverse((time, k))) = waiting.peek()
+            && (time <= now || ready.iter().all(BinaryHeap::is_empty))
+        {
+            waiting.pop();
+            now = now.max(time);
+            ready[kind(k)].push((chain[k], Reverse(k)));
+        }
+        if ready[last].is_empty() {
+            let longest = (0..ready.len()).max_by_key(|kind| ready[*kind].peek().map(|(c, _)| *c));
+            last = longest.unwrap_or(0);
+        }
+        let Some((_, Reverse(k))) = ready[last].pop() else {
+            break;
+        };
+        order.push(k);
+        now += 1;
+        for &reader in &readers[k] {
+            from[reader] = from[reader].max(now - 1 + LATENCY);
+            missing[reader] -= 1;
+            if missing[reader] == 0 {
+                waiting.push(Reverse((from[reader], reader)));
+            }
+        }
+    }
+    order
+}
+
+/// The factors of a product.
+fn factors(program: &Program, v: Value) -> Option<(Value, Value)> {
+    match program.op(v) {
+        Op::Binary(Binary::Mul, a, b) => Some((a, b)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use symbolic::Graph;
+
+    use super::*;
+
+    /// A program of 400 operations of all kinds on 12 inputs, by the digits of a generator: sums
+    /// of products, products that are used twice, constants, roots, results that are inputs.
+    fn program(seed: u64) -> (Program, Vec<Source>) {
+        let mut state = seed;
+        let mut draw = |n: usize| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as usize % n
+        };
+        let (mut names, mut p) = (Graph::new(), Program::empty());
+        let mut values = Vec::new();
+        for k in 0..12 {
+            let name = names.symbol(&format!("x{k}"));
+            values.push(p.input(names.as_symbol(name).expect("a symbol")));
+        }
+        let sources = (0..12).map(|k| Source::Mechanism(Input::Coordinate(k)));
+        for _ in 0..400 {
+            // Mostly of recent values, so that chains are long.
+            let mut of = |values: &[Value]| {
+                let last = values.len().min(20);
+                values[values.len() - 1 - draw(last)]
+            };
+            let (a, b) = (of(&values), of(&values));
+            let made = match draw(12) {
+                0..4 => p.mul(a, b),
+                4..7 => p.add(a, b),
+                7..9 => p.sub(a, b),
+                9 => {
+                    let (x, one) = (p.mul(b, b), p.number(1.5));
+                    let below = p.add(x, one);
+                    p.div(a, below)
+                }
+                10 => {
+                    let x = p.mul(a, a);
+                    p.call(Function::Sqrt, x)
+                }
+                _ => {
+                    let x = p.number(0.25);
+                    let product = p.mul(x, a);
+                    p.neg(product)
+                }
+            };
+            // Of one size, so that none overflows.
+            let (one, square) = (p.number(1.0), p.mul(made, made));
+            let size = p.add(one, square);
+            values.push(p.div(made, size));
+        }
+        let outputs: Vec<Value> = values.iter().rev().step_by(3).copied().collect();
+        (p.with_outputs(&outputs), sources.collect())
+    }
+
+    /// The references are the operations of the program one by one. Each state has other numbers.
+    #[test]
+    fn lists_are_their_programs_bit_for_bit() {
+        const L: usize = 8;
+        for seed in 0..50 {
+            let (program, sources) = program(seed);
+            let n_out = program.outputs().len();
+            let list = List::new(&program, &sources, n_out).expect("places");
+            let input = |k: usize, l: usize| (1.3 * k as f64 + 0.7 * l as f64 + seed as f64).sin();
+            let mut places: Box<[[f64; L]; PLACES]> = vec![[0.0; L]; PLACES]
+                .into_boxed_slice()
+                .try_into()
+                .expect("so many");
+            for (source, place) in &list.inputs {
+                let Source::Mechanism(Input::Coordinate(k)) = source else {
+                    panic!("{source:?}");
+                };
+                places[*place] = from_fn(|l| input(*k, l));
+            }
+            list.execute(&mut places);
+            for l in 0..L {
+                let expected = program.run(|s| input(s.index(), l));
+                let found = list.out.iter().map(|place| places[*place][l]);
+                for (found, expected) in found.zip(expected) {
+                    assert_eq!(
+                        found.to_bits(),
+                        expected.to_bits(),
+                        "{seed}: {found} {expected}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// Each operation follows its operands, none is left out, and no place is needed that is taken.
+    #[test]
+    fn places_are_used_again() {
+        let (program, sources) = program(7);
+        let list = List::new(&program, &sources, program.outputs().len()).expect("places");
+        let sums = list.steps.iter().filter_map(|step| match step {
+            Do::Sums(_, sums) => Some(sums.len()),
+            _ => None,
+        });
+        let places = list.steps.iter().flat_map(|step| match step {
+            Do::Sums(_, sums) => sums.iter().map(|sum| sum.to).collect(),
+            Do::Div { to, .. } | Do::Call { to, .. } => vec![*to],
+        });
+        let most = places.max().map_or(0, usize::from);
+        let counts = program.counts();
+        let sums: usize = sums.sum();
+        assert!(most < counts.total() / 2, "{most} places for {counts}");
+        assert!(
+            sums <= counts.mul + counts.add + counts.neg,
+            "{sums} for {counts}"
+        );
+        assert!(sums >= counts.mul.max(counts.add), "{sums} for {counts}");
+    }
+}
