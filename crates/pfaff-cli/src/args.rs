@@ -217,6 +217,9 @@ pub(crate) struct Simulate {
 pub(crate) struct Plan {
     /// Scene file, or - for standard input
     pub(crate) scene: PathBuf,
+    /// Also say how the runs of a sweep with these values are evaluated: as of `sweep`
+    #[arg(long, value_name = "KEY=VALUES")]
+    pub(crate) vary: Vec<Axis>,
     /// Last time (s)
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) t_end: Option<f64>,

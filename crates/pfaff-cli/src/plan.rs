@@ -9,8 +9,9 @@ use crate::args;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Outcome, columns, count};
+use crate::output::{Outcome, columns, count, wrapped};
 use crate::resources::Bytes;
+use crate::sweep;
 
 pub(crate) fn run(arguments: &args::Plan, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
@@ -25,10 +26,20 @@ pub(crate) fn run(arguments: &args::Plan, console: &Console<'_>) -> Outcome {
     let memory = study
         .memory(source.text.len())
         .map_err(|e| source.failure(e))?;
+    let sweep = match arguments.vary.as_slice() {
+        [] => None,
+        axes => Some(sweep::read(&source, axes.to_vec())?.evaluation()),
+    };
     if !arguments.json {
-        return console.print(&describe(study.scene.name(), &plan, memory));
+        let mut text = describe(study.scene.name(), &plan, memory);
+        if let Some(sweep) = sweep {
+            text.push_str(&wrapped("\nruns of the sweep: ", &sweep));
+        }
+        return console.print(&text);
     }
-    console.document(&PlanDocument::new(&plan, memory))
+    let mut document = PlanDocument::new(&plan, memory);
+    document.sweep = sweep;
+    console.document(&document)
 }
 
 /// One table for the whole mechanism, and one for each component if there are several.

@@ -7,7 +7,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::report::sweep::{FILES, Records, Runs};
 use pfaff::report::{FileError, SweepDocument, SweepStatus, is_ours};
 use pfaff::sweep::{
-    Merged, Shard, Sweep, SweepError, SweepProgress, SweepSettings, Tables, end_attempts, merge,
+    Axis, Merged, Shard, Sweep, SweepError, SweepProgress, SweepSettings, Tables, end_attempts,
+    merge,
 };
 
 use crate::args;
@@ -73,18 +74,18 @@ enum Ending {
     },
 }
 
-/// Makes the runs.
-fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Ending), Failure> {
-    let sweep = Sweep::read(
-        &source.name,
-        &source.text,
-        source.registry,
-        arguments.vary.clone(),
-    );
-    let mut sweep = sweep.map_err(|e| match e {
+/// Reads the scene of a sweep.
+pub(crate) fn read<'s>(source: &'s Source, axes: Vec<Axis>) -> Result<Sweep<'s>, Failure> {
+    let sweep = Sweep::read(&source.name, &source.text, source.registry, axes);
+    sweep.map_err(|e| match e {
         SweepError::Study(e) => source.failure(e),
         other => failure(&other),
-    })?;
+    })
+}
+
+/// Makes the runs.
+fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Ending), Failure> {
+    let mut sweep = read(source, arguments.vary.clone())?;
     if arguments.keep_rows {
         sweep = sweep.keeping_rows();
     }

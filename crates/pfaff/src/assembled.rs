@@ -1,7 +1,8 @@
 //! A scene with its mechanism, before its rows are analysed: the first stage of a study, and all
 //! that is available for a mechanism whose rank is too uncertain for a motion.
 
-use dynamics::{MotionError, MotionOptions, RowChoice, prepare, start_velocity, unmovable};
+use dynamics::{MotionError, MotionOptions, Prepared, RowChoice};
+use dynamics::{prepare_after, start_velocity, unmovable};
 use model::start::assemble;
 use model::{Assembly, Known, Mechanism, Registry, StartError, Tolerance};
 use scene::Scene;
@@ -104,6 +105,16 @@ impl AssembledScene {
     /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen; or the options of the
     ///   run are invalid, with their place if they come from the scene.
     pub fn prepare(self, overrides: &Overrides) -> Result<Study, StudyError> {
+        self.prepare_after(overrides, None)
+    }
+
+    /// Like [`AssembledScene::prepare`]; what has been decided for another mechanism with the same
+    /// constraints is taken from there.
+    pub(crate) fn prepare_after(
+        self,
+        overrides: &Overrides,
+        other: Option<&Prepared>,
+    ) -> Result<Study, StudyError> {
         let Self { scene, mechanism } = self;
         let options = options(&scene, overrides);
         let rows = match (&overrides.drop, &options) {
@@ -118,7 +129,7 @@ impl AssembledScene {
                 e.into()
             });
         }
-        let prepared = match prepare(mechanism, &scene.start, &rows) {
+        let prepared = match prepare_after(mechanism, &scene.start, &rows, other) {
             Ok(prepared) => prepared,
             Err(e) if leaves_no_motion(&e) => {
                 let place = scene.locate_motion(&e).map(Box::new);

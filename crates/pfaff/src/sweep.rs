@@ -8,8 +8,10 @@
 
 mod attempt;
 mod axis;
+mod code;
 mod error;
 mod gate;
+mod lanes;
 mod make;
 mod run;
 mod shard;
@@ -18,6 +20,7 @@ mod tests;
 
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::OnceLock;
 
 use model::{Mechanism, Registry, System};
 use report::sweep::{Extent, Records, Shards, SweepPlan, digest, write_sweep};
@@ -26,9 +29,12 @@ use scene::{Template, WantedReactions};
 
 use crate::assembled::AssembledScene;
 use crate::error::StudyError;
+use crate::study::Overrides;
 use attempt::Attempt;
 use axis::Grid;
+use code::SweepCode;
 use make::Keep;
+use run::Described;
 
 pub use axis::{Axis, AxisError};
 pub use error::SweepError;
@@ -68,6 +74,12 @@ pub struct Sweep<'r> {
     /// Indices of the requested reactions.
     reactions: Vec<usize>,
     registry: &'r Registry,
+    /// The text of the scene.
+    text: String,
+    /// The scene without changes, prepared when the first run begins.
+    described: OnceLock<Option<Described>>,
+    /// The code of its runs, or why they are interpreted; made when the first run begins.
+    code: OnceLock<Result<SweepCode, String>>,
 }
 
 /// Settings of a sweep.
@@ -163,7 +175,60 @@ impl<'r> Sweep<'r> {
             plan,
             reactions,
             registry,
+            text: text.to_owned(),
+            described: OnceLock::new(),
+            code: OnceLock::new(),
         })
+    }
+
+    /// What evaluates the equations of its runs, in words: code that is generated for all of them
+    /// without a compiler, or the interpreter, with the reason.
+    ///
+    /// ```
+    /// use pfaff::model::Registry;
+    /// use pfaff::sweep::Sweep;
+    ///
+    /// let scene = r#"
+    /// scene = { name = "pendulum", space = "plane", gravity = [0.0, -9.81] }
+    /// body = [{ name = "bob", mass = 1.0, inertia = 0.1, position = [0.5, 0.0] }]
+    /// joint = [{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [0.0, 0.0] }]
+    /// simulate = { t_end = 1.0 }
+    /// "#;
+    /// let registry = Registry::standard();
+    /// let read = |axis: &str| {
+    ///     let axes = vec![axis.parse().unwrap()];
+    ///     Sweep::read("pendulum.toml", scene, &registry, axes).unwrap()
+    /// };
+    /// let masses = read("body.bob.mass=1:2:100").evaluation();
+    /// assert!(masses.starts_with("on generated code, 8 runs at once; it takes 2 numbers"), "{masses}");
+    /// let few = read("body.bob.mass=1,2").evaluation();
+    /// assert!(few.starts_with("interpreted: code is made for 24 runs"), "{few}");
+    /// ```
+    #[must_use]
+    pub fn evaluation(&self) -> String {
+        match (self.code(), self.code.get()) {
+            (Some(code), _) => code.describe(),
+            (None, Some(Err(why))) => format!("interpreted: {why}"),
+            (None, _) => "interpreted".to_owned(),
+        }
+    }
+
+    /// The scene without changes, if it can be analysed.
+    fn described(&self) -> Option<&Described> {
+        let make = || {
+            let name = &self.plan.scene;
+            let assembled = AssembledScene::read(name, &self.text, self.registry).ok()?;
+            Described::new(assembled.prepare(&Overrides::default()).ok()?)
+        };
+        self.described.get_or_init(make).as_ref()
+    }
+
+    /// The code of the runs, if they are made on code.
+    fn code(&self) -> Option<&SweepCode> {
+        let text = (self.plan.scene.as_str(), self.text.as_str());
+        let runs = (self.plan.keys.as_slice(), self.plan.runs);
+        let make = || SweepCode::new(text, self.registry, self.described(), runs);
+        self.code.get_or_init(make).as_ref().ok()
     }
 
     /// Also writes the trajectory of each run to `runs/<number>/trajectory.csv`.
@@ -218,7 +283,10 @@ impl<'r> Sweep<'r> {
     #[must_use]
     pub fn row(&self, run: u64) -> SweepRow {
         match self.begin(run) {
-            Ok(begun) => begun.go(&|| false, |_| ControlFlow::Continue(())),
+            Ok(begun) => self.row_of(
+                run,
+                begun.go(None, &|| false, |_| ControlFlow::Continue(())),
+            ),
             Err(error) => self.refused(run, &error),
         }
     }

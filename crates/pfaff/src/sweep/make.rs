@@ -4,9 +4,11 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use dynamics::Stop;
-use report::{OutputDirectory, SweepRow, TrajectoryTable};
+use dynamics::{SceneCode, Stop};
+use report::{OutputDirectory, OutputFile, SweepRow, TrajectoryTable};
 
+use super::lanes::together;
+use super::run::{Begun, Ended};
 use super::{Sweep, SweepError};
 
 /// Largest number of runs that are begun together.
@@ -32,47 +34,68 @@ impl Sweep<'_> {
         interrupted: &Stop<'_>,
         sink: &mut dyn FnMut(SweepRow) -> Result<(), SweepError>,
     ) -> Result<(), SweepError> {
-        for run in runs {
-            match self.whole_row(*run, keep, interrupted)? {
-                Some(row) => sink(row)?,
-                None => break,
+        let mut begun = Vec::with_capacity(runs.len());
+        for &run in runs {
+            if interrupted() {
+                return Ok(());
+            }
+            #[cfg(test)]
+            super::tests::begins(run);
+            match self.begin(run) {
+                Ok(own) => begun.push(self.job(run, own, keep)?),
+                Err(error) => sink(self.refused(run, &error))?,
             }
         }
-        Ok(())
+        together(begun, interrupted, &mut |run, ended| match ended? {
+            Some(ended) => sink(self.row_of(run, ended)),
+            None => Ok(()),
+        })
     }
 
-    /// Makes a run, with its trajectory if that is kept. Returns `None` if it was interrupted.
-    fn whole_row(
-        &self,
-        run: u64,
-        keep: Keep<'_>,
-        interrupted: &Stop<'_>,
-    ) -> Result<Option<SweepRow>, SweepError> {
-        if interrupted() {
-            return Ok(None);
-        }
-        #[cfg(test)]
-        super::tests::begins(run);
-        let begun = match self.begin(run) {
-            Ok(begun) => begun,
-            Err(error) => return Ok(Some(self.refused(run, &error))),
-        };
-        if interrupted() {
-            return Ok(None);
-        }
-        let mut table = match keep {
+    /// A run with what it writes.
+    fn job(&self, run: u64, begun: Begun, keep: Keep<'_>) -> Result<Job, SweepError> {
+        let trajectory = match keep {
             Keep::Rows => None,
             Keep::Trajectories(directory) => {
                 let folder = folder(directory, run, self.runs());
                 // Another process may make the same run.
                 let folder = OutputDirectory::create(folder)?.with_own_parts();
-                let file = folder.file("trajectory.csv")?;
-                let mechanism = &begun.study.prepared.mechanism;
-                Some(TrajectoryTable::new(file, mechanism)?)
+                Some(folder.file("trajectory.csv")?)
             }
         };
+        Ok(Job {
+            run,
+            begun,
+            trajectory,
+        })
+    }
+}
+
+/// A run that has begun, with what it writes.
+pub(super) struct Job {
+    pub(super) run: u64,
+    pub(super) begun: Begun,
+    trajectory: Option<OutputFile>,
+}
+
+impl Job {
+    /// Moves it to its end and stores its trajectory; `None` if `stop` has ended it: it is made
+    /// again then. `evaluator` evaluates its code, if there are several runs at once.
+    pub(super) fn go(
+        self,
+        evaluator: Option<&dyn SceneCode>,
+        stop: &Stop<'_>,
+    ) -> Result<Option<Ended>, SweepError> {
+        if stop() {
+            return Ok(None);
+        }
+        let mechanism = &self.begun.study.prepared.mechanism;
+        let table = self
+            .trajectory
+            .map(|file| TrajectoryTable::new(file, mechanism));
+        let mut table = table.transpose()?;
         let mut unwritten = None;
-        let row = begun.go(interrupted, |sample| {
+        let ended = self.begun.go(evaluator, stop, |sample| {
             if let Some(table) = &mut table {
                 unwritten = table.row(sample.t, sample.q, sample.v).err();
             }
@@ -85,8 +108,8 @@ impl Sweep<'_> {
         if let Some(error) = unwritten {
             return Err(error.into());
         }
-        // The run may have ended just before the request; it is made again then.
-        if interrupted() {
+        // The run may have ended just before the request.
+        if stop() {
             return Ok(None);
         }
         if let Some(table) = table {
@@ -95,7 +118,7 @@ impl Sweep<'_> {
             file.sync()?;
             file.finish()?;
         }
-        Ok(Some(row))
+        Ok(Some(ended))
     }
 }
 

@@ -1,12 +1,18 @@
 //! One run of a sweep: the scene with its numbers, moved and recorded.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
-use dynamics::{MotionFault, Prepared, Sample, Stop, Summary};
-use model::Mechanism;
+use dynamics::plan::{Reactions, Rows};
+use dynamics::{
+    MotionFault, MotionOptions, Plan, Prepared, Sample, SceneCode, Stop, Summary, Wanted,
+};
 use model::space::norm;
+use model::{Mechanism, System};
 use report::sweep::{Extreme, SweepMotion};
 use report::{SweepRow, SweepStatus};
+use scene_codegen::Tape;
+use solvability::analysis::analyse_decided;
 use solvability::{Analysis, analyse};
 
 use super::Sweep;
@@ -15,37 +21,114 @@ use crate::error::StudyError;
 use crate::study::{Overrides, Study};
 
 /// A run that can begin: assembled, and analysed at its start.
-pub(super) struct Begun<'s> {
-    sweep: &'s Sweep<'s>,
-    run: u64,
+pub(super) struct Begun {
     pub(super) study: Study,
-    analysis: Analysis,
+    options: MotionOptions,
+    analysis: Arc<Analysis>,
     /// Number of unique reactions that are fragile.
     fragile: u64,
+    /// Indices of the requested reactions in this mechanism.
+    reactions: Vec<Option<usize>>,
+    /// The code that the run is made on, if it is made on code.
+    pub(super) code: Option<Tape>,
+}
+
+/// The scene without changes, whose decisions serve all runs with the same constraints.
+pub(super) struct Described {
+    study: Study,
+    analysis: Arc<Analysis>,
+}
+
+impl Described {
+    /// `None` if it cannot be analysed.
+    pub(super) fn new(study: Study) -> Option<Self> {
+        let Prepared {
+            mechanism,
+            q,
+            decided,
+            ..
+        } = &study.prepared;
+        let analysis = analyse_decided(mechanism, 0.0, q, decided.as_ref()?, |_| ()).ok()?;
+        Some(Self {
+            analysis: Arc::new(analysis),
+            study,
+        })
+    }
+
+    pub(super) fn prepared(&self) -> &Prepared {
+        &self.study.prepared
+    }
+
+    /// Whether a run has its constraints and its configuration, and so its decisions.
+    pub(super) fn decides(&self, run: &Prepared) -> bool {
+        let own = self.prepared();
+        let both = own.decided.as_ref().zip(run.decided.as_ref());
+        both.is_some_and(|(own, of_run)| Arc::ptr_eq(own, of_run)) && own.q == run.q
+    }
+}
+
+/// How a run ended: what its row has, and the reason if it stopped.
+pub(super) struct Ended {
+    motion: SweepMotion,
+    error: Option<StudyError>,
 }
 
 impl Sweep<'_> {
     /// Assembles a run (from 1).
-    pub(super) fn begin(&self, run: u64) -> Result<Begun<'_>, StudyError> {
+    pub(super) fn begin(&self, run: u64) -> Result<Begun, StudyError> {
         let written = self.grid.written((run - 1) as usize);
         let written: Vec<&str> = written.iter().map(String::as_str).collect();
         let text = self.template.with_expressions(&written);
         let assembled = AssembledScene::read(&self.plan.scene, &text, self.registry)?;
-        let study = assembled.prepare(&Overrides::default())?;
-        let options = study.options.as_ref().ok_or(StudyError::NoEnd)?;
+        let described = self.described();
+        let other = described.map(Described::prepared);
+        let mut study = assembled.prepare_after(&Overrides::default(), other)?;
+        let options = study.options.clone().ok_or(StudyError::NoEnd)?;
         options.check()?;
         let Prepared {
-            mechanism, q, v, ..
+            mechanism,
+            q,
+            v,
+            decided,
+            ..
         } = &study.prepared;
-        let analysis = analyse(mechanism, 0.0, q)?;
+        let known = described.filter(|described| described.decides(&study.prepared));
+        let analysis = match (known, decided) {
+            (Some(known), _) => Arc::clone(&known.analysis),
+            (None, Some(decided)) => Arc::new(analyse_decided(mechanism, 0.0, q, decided, |_| ())?),
+            (None, None) => Arc::new(analyse(mechanism, 0.0, q)?),
+        };
         let fragile = analysis.sensitivities(mechanism, q, v)?.fragile().count() as u64;
+        let reactions = self.places(mechanism);
+        let code = self
+            .code()
+            .and_then(|code| code.of_run(&mut study, described, &options));
         Ok(Begun {
-            sweep: self,
-            run,
             study,
+            options,
             analysis,
             fragile,
+            reactions,
+            code,
         })
+    }
+
+    /// The row of a run that has begun.
+    pub(super) fn row_of(&self, run: u64, Ended { motion, error }: Ended) -> SweepRow {
+        match error {
+            // The run has no state.
+            Some(error) if motion.t_state.is_nan() => self.refused(run, &error),
+            error => SweepRow {
+                run,
+                varied: self.point(run),
+                status: match error {
+                    Some(_) => SweepStatus::Stopped,
+                    None => SweepStatus::Done,
+                },
+                error: error.as_ref().map_or(String::new(), reason),
+                motion: Some(motion),
+            },
+        }
     }
 
     /// The row of a run that cannot begin.
@@ -74,47 +157,39 @@ impl Sweep<'_> {
 /// What is known of a run that has ended its process.
 const CRASHED: &str = "the process ended twice while it made this run and no other";
 
-impl Begun<'_> {
+impl Begun {
     /// Moves it to its end, or until `each`, which is called with every written row, or `stop`,
-    /// which is called at each evaluation, stops it.
+    /// which is called at each evaluation, stops it. `evaluator` evaluates its code, if there are
+    /// several runs at once.
     pub(super) fn go(
         &self,
+        evaluator: Option<&dyn SceneCode>,
         stop: &Stop<'_>,
         mut each: impl FnMut(&Sample<'_, '_>) -> ControlFlow<()>,
-    ) -> SweepRow {
-        let Self {
-            sweep,
-            run,
-            study,
-            analysis,
-            fragile,
-        } = self;
-        let Some(options) = &study.options else {
-            return sweep.refused(*run, &StudyError::NoEnd);
+    ) -> Ended {
+        let mut watch = Watch::new(self);
+        let wanted = Wanted {
+            rows: Rows::Every,
+            accelerations: false,
+            reactions: Reactions::Of(watch.names()),
         };
-        let reactions = sweep.places(&study.prepared.mechanism);
-        let mut watch = Watch::new(&reactions, study, analysis);
-        let outcome = study.run_until(options, stop, |sample| {
+        let row = |sample: &mut Sample<'_, '_>| {
             watch.see(sample)?;
             Ok(each(sample))
-        });
-        let (summary, error) = match outcome {
-            Ok(summary) => (summary, None),
-            Err(failure) => (failure.summary, Some(StudyError::from(failure.error))),
         };
-        match error {
-            // The run has no state.
-            Some(error) if watch.t_state.is_nan() => sweep.refused(*run, &error),
-            error => SweepRow {
-                run: *run,
-                varied: sweep.point(*run),
-                status: match error {
-                    Some(_) => SweepStatus::Stopped,
-                    None => SweepStatus::Done,
-                },
-                error: error.as_ref().map_or(String::new(), reason),
-                motion: Some(watch.motion(study, analysis, *fragile, &summary)),
-            },
+        let outcome =
+            Plan::new(&self.study.prepared, &self.options, &wanted).map(|plan| match evaluator {
+                Some(evaluator) => plan.simulate_evaluated(evaluator, stop, row),
+                None => plan.simulate_watched(&|_| ControlFlow::Continue(()), stop, row),
+            });
+        let (summary, error) = match outcome {
+            Ok(Ok(summary)) => (summary, None),
+            Ok(Err(failure)) => (failure.summary, Some(StudyError::from(failure.error))),
+            Err(error) => (Summary::default(), Some(error.into())),
+        };
+        Ended {
+            motion: watch.motion(&summary),
+            error,
         }
     }
 }
@@ -133,7 +208,7 @@ pub(super) fn reason(error: &StudyError) -> String {
 
 /// Values kept from the rows of a run.
 struct Watch<'s> {
-    mechanism: &'s Mechanism,
+    begun: &'s Begun,
     /// Time of the last state (s).
     t_state: f64,
     /// The last state, body by body in the order of trajectories.
@@ -144,28 +219,41 @@ struct Watch<'s> {
 }
 
 impl<'s> Watch<'s> {
-    fn new(reactions: &[Option<usize>], study: &'s Study, analysis: &Analysis) -> Self {
+    fn new(begun: &'s Begun) -> Self {
+        let mechanism = &begun.study.prepared.mechanism;
         let is_unique = |k: usize| {
-            let verdict = analysis.reactions.get(k).map(|r| &r.wrench.verdict);
+            let verdict = begun.analysis.reactions.get(k).map(|r| &r.wrench.verdict);
             verdict.is_some_and(|v| v.is_unique())
         };
         // Nothing is unique of a reaction that this run does not have.
-        let columns = study.prepared.mechanism.space().columns().len();
         let known = |&k: &Option<usize>| k.map_or((0, false), |k| (k, is_unique(k)));
+        let columns = mechanism.space().columns().len();
         Self {
+            begun,
             t_state: f64::NAN,
-            state: vec![f64::NAN; columns * study.prepared.mechanism.bodies().len()],
-            mechanism: &study.prepared.mechanism,
-            reactions: reactions.iter().map(known).collect(),
-            extremes: vec![Extreme::UNKNOWN; reactions.len()],
+            state: vec![f64::NAN; columns * mechanism.bodies().len()],
+            reactions: begun.reactions.iter().map(known).collect(),
+            extremes: vec![Extreme::UNKNOWN; begun.reactions.len()],
         }
+    }
+
+    fn mechanism(&self) -> &'s Mechanism {
+        &self.begun.study.prepared.mechanism
+    }
+
+    /// Names of the joints and drives whose reactions are looked at.
+    fn names(&self) -> Vec<String> {
+        let groups = &self.mechanism().layout().groups;
+        let unique = self.reactions.iter().filter(|(_, is_unique)| *is_unique);
+        unique.map(|(k, _)| groups[*k].name.clone()).collect()
     }
 
     fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), MotionFault> {
         self.t_state = sample.t;
-        let columns = self.mechanism.space().columns().len();
+        let mechanism = self.mechanism();
+        let columns = mechanism.space().columns().len();
         for (body, state) in self.state.chunks_exact_mut(columns).enumerate() {
-            let frame = self.mechanism.frames().body(body, sample.q, sample.v);
+            let frame = mechanism.frames().body(body, sample.q, sample.v);
             state
                 .iter_mut()
                 .zip(frame.numbers())
@@ -184,13 +272,13 @@ impl<'s> Watch<'s> {
         Ok(())
     }
 
-    fn motion(
-        self,
-        study: &Study,
-        analysis: &Analysis,
-        fragile: u64,
-        summary: &Summary,
-    ) -> SweepMotion {
+    fn motion(self, summary: &Summary) -> SweepMotion {
+        let Begun {
+            study,
+            analysis,
+            fragile,
+            ..
+        } = self.begun;
         let largest = |values: &[f64]| values.iter().fold(0.0, |a, x| f64::max(a, x.abs()));
         let not_unique = analysis
             .reactions
@@ -213,7 +301,7 @@ impl<'s> Watch<'s> {
             rank: analysis.decision.rank as u64,
             redundancy: analysis.decision.redundancy as u64,
             not_unique: not_unique.count() as u64,
-            fragile,
+            fragile: *fragile,
             t_state: self.t_state,
             state: self.state,
             extremes: self.extremes,

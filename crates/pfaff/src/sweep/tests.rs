@@ -1,11 +1,13 @@
 //! Sweeps compared with closed forms, for any number of threads and shards and with interruptions.
 
+mod code;
+
 use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use model::Registry;
-use report::{SweepDocument, SweepStatus};
+use report::{SweepDocument, SweepRow, SweepStatus};
 
 use super::{Shard, Sweep, SweepError, SweepOutcome, SweepProgress, SweepSettings, Tables, merge};
 

@@ -23,6 +23,9 @@ pub struct PlanDocument {
     pub components: Vec<PlannedComponentDocument>,
     /// The decisions.
     pub decisions: Vec<DecisionDocument>,
+    /// What evaluates the runs of a sweep, if one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sweep: Option<String>,
 }
 
 /// Bodies that affect each other.
@@ -91,6 +94,7 @@ impl PlanDocument {
             memory,
             components: plan.components.iter().map(Into::into).collect(),
             decisions: plan.lines().into_iter().map(Into::into).collect(),
+            sweep: None,
         }
     }
 }

@@ -1,0 +1,100 @@
+//! Generated code for the runs of a sweep: made once, without a compiler, with what the varied keys
+//! touch as inputs.
+
+use std::sync::Arc;
+
+use dynamics::code::SharedCode;
+use dynamics::{CodeMismatch, MotionOptions, Prepared, SceneCode};
+use model::Registry;
+use scene_codegen::{CodeError, LANES, NotAnInput, Tape};
+
+use super::run::Described;
+use crate::study::Study;
+
+/// Sweeps of fewer runs are interpreted: making the code takes as long as some of them.
+const FEW: u64 = 24;
+
+/// The code of all runs of a sweep.
+pub(super) struct SweepCode {
+    tape: Tape,
+}
+
+impl SweepCode {
+    /// The code for runs of a scene with other numbers at these keys; `described` is the scene
+    /// without changes.
+    ///
+    /// # Errors
+    /// Why runs are interpreted.
+    pub(super) fn new(
+        (name, text): (&str, &str),
+        registry: &Registry,
+        described: Option<&Described>,
+        (keys, runs): (&[String], u64),
+    ) -> Result<Self, String> {
+        if runs < FEW {
+            return Err(format!("code is made for {FEW} runs and more"));
+        }
+        let described = described.ok_or("the scene has no start without its changes")?;
+        // What is no number of the equations, such as a tolerance, needs no input.
+        let mut keys = keys.to_vec();
+        let tape = loop {
+            match scene_codegen::scene_tape(name, text, registry, &keys) {
+                Ok(tape) => break tape,
+                Err(CodeError::Input(NotAnInput::OfKey { key, why }))
+                    if *why == NotAnInput::Nothing && keys.contains(&key) =>
+                {
+                    keys.retain(|other| *other != key);
+                }
+                Err(error) => return Err(error.to_string()),
+            }
+        };
+        let code = Self { tape };
+        let fits = code.fit(described.prepared().clone(), Prepared::with_code);
+        fits.map_err(|e| e.to_string())?;
+        Ok(code)
+    }
+
+    /// What it is, in words.
+    pub(super) fn describe(&self) -> String {
+        let inputs = self.tape.inputs().map_or(0, |inputs| inputs.list.len());
+        let inputs = match inputs {
+            1 => "1 number".to_owned(),
+            n => format!("{n} numbers"),
+        };
+        format!(
+            "on generated code, {LANES} runs at once; it takes {inputs} of each run ({})",
+            self.tape.spec().operations
+        )
+    }
+
+    /// Prepares a run for the code with its numbers; `None` if it has to be interpreted.
+    pub(super) fn of_run(
+        &self,
+        study: &mut Study,
+        described: Option<&Described>,
+        options: &MotionOptions,
+    ) -> Option<Tape> {
+        let prepared = study.prepared.clone();
+        let fits = if described.is_some_and(|described| described.decides(&prepared)) {
+            self.fit(prepared, Prepared::with_known_code)
+        } else {
+            self.fit(prepared, Prepared::with_code)
+        };
+        let (tape, prepared) = fits.ok()?;
+        prepared.code_for(options).ok()?;
+        study.prepared = prepared;
+        Some(tape)
+    }
+
+    fn fit(
+        &self,
+        prepared: Prepared,
+        with: fn(Prepared, Arc<SharedCode>) -> Result<Prepared, CodeMismatch>,
+    ) -> Result<(Tape, Prepared), CodeMismatch> {
+        let tape = self.tape.of_mechanism(&prepared.mechanism)?;
+        let spec = tape.spec();
+        let moved = prepared.on_rows(&spec.kept, &spec.position_kept);
+        let prepared = with(moved.unwrap_or(prepared), Arc::new(tape.clone()))?;
+        Ok((tape, prepared))
+    }
+}

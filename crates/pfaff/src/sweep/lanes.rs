@@ -1,0 +1,153 @@
+//! Several runs on one thread, whose code is evaluated together. Each run is a coroutine that waits
+//! whenever it needs a function of its code; once all wait, the function that most of them need is
+//! evaluated for all of these at once. So runs keep their own steps, projections and events, and
+//! are the same bits as alone.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use corosensei::stack::DefaultStack;
+use corosensei::{Coroutine, CoroutineResult, Yielder};
+use dynamics::code::{CodeFunction, CodeSpec};
+use dynamics::{SceneCode, Stop};
+use scene_codegen::{Tape, TapeCall};
+
+use super::SweepError;
+use super::make::Job;
+use super::run::Ended;
+
+/// Size of the stack of a run (bytes); memory is taken by what is used of it.
+const STACK: usize = 2 << 20;
+
+/// How a run has ended: `None` if it was interrupted.
+type Outcome = Result<Option<Ended>, SweepError>;
+
+/// What a run waits for.
+struct Wait {
+    function: CodeFunction,
+    call: Box<TapeCall>,
+}
+
+type Lane = Coroutine<Option<Box<TapeCall>>, Wait, Outcome, DefaultStack>;
+
+/// Makes the runs and hands each result over as soon as it is there.
+pub(super) fn together(
+    jobs: Vec<Job>,
+    interrupted: &Stop<'_>,
+    done: &mut dyn FnMut(u64, Outcome) -> Result<(), SweepError>,
+) -> Result<(), SweepError> {
+    let stopped = Arc::new(AtomicBool::new(false));
+    let mut waiting: [Vec<(u64, Lane)>; CodeFunction::ALL.len()] = Default::default();
+    let mut calls: [Vec<Box<TapeCall>>; CodeFunction::ALL.len()] = Default::default();
+    let together = jobs.len() > 1;
+    for job in jobs {
+        let run = job.run;
+        let stack = together.then(|| DefaultStack::new(STACK).ok()).flatten();
+        let (Some(stack), Some(tape)) = (stack, job.begun.code.clone()) else {
+            done(run, job.go(None, interrupted))?;
+            continue;
+        };
+        let stopped = Arc::clone(&stopped);
+        // What a coroutine begins with has to be small.
+        let job = Box::new(job);
+        let mut lane = Lane::with_stack(stack, move |yielder, _| {
+            let waits = Waits {
+                spec: tape.clone(),
+                call: RefCell::new(Some(Box::new(TapeCall::new(tape)))),
+                yielder,
+            };
+            job.go(Some(&waits), &|| stopped.load(Ordering::Relaxed))
+        });
+        match lane.resume(None) {
+            CoroutineResult::Yield(Wait { function, call }) => {
+                waiting[function.index()].push((run, lane));
+                calls[function.index()].push(call);
+            }
+            CoroutineResult::Return(outcome) => done(run, outcome)?,
+        }
+    }
+    loop {
+        if interrupted() {
+            stopped.store(true, Ordering::Relaxed);
+        }
+        let needed = CodeFunction::ALL
+            .iter()
+            .max_by_key(|f| calls[f.index()].len());
+        let Some(&function) = needed.filter(|f| !calls[f.index()].is_empty()) else {
+            return Ok(());
+        };
+        Tape::evaluate_all(function, &mut calls[function.index()]);
+        let lanes = std::mem::take(&mut waiting[function.index()]);
+        let answers = std::mem::take(&mut calls[function.index()]);
+        for ((run, mut lane), answer) in lanes.into_iter().zip(answers) {
+            match lane.resume(Some(answer)) {
+                CoroutineResult::Yield(Wait { function, call }) => {
+                    waiting[function.index()].push((run, lane));
+                    calls[function.index()].push(call);
+                }
+                CoroutineResult::Return(outcome) => done(run, outcome)?,
+            }
+        }
+    }
+}
+
+/// The code of a run that waits until a function is evaluated.
+struct Waits<'y> {
+    spec: Tape,
+    /// Where arguments and results are; it is away during an evaluation.
+    call: RefCell<Option<Box<TapeCall>>>,
+    yielder: &'y Yielder<Option<Box<TapeCall>>, Wait>,
+}
+
+impl Waits<'_> {
+    fn evaluate(
+        &self,
+        function: CodeFunction,
+        t: f64,
+        (q, with): (&[f64], &[f64]),
+        out: &mut [f64],
+    ) -> f64 {
+        let Some(mut call) = self.call.take() else {
+            return f64::NAN;
+        };
+        call.set(t, q, with, out.len());
+        let answer = self.yielder.suspend(Wait { function, call });
+        let health = answer.as_ref().map_or(f64::NAN, |call| {
+            out.copy_from_slice(&call.out);
+            call.health
+        });
+        self.call.replace(answer);
+        health
+    }
+}
+
+impl SceneCode for Waits<'_> {
+    fn spec(&self) -> &CodeSpec {
+        self.spec.spec()
+    }
+
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64 {
+        self.evaluate(CodeFunction::Acceleration, t, (q, v), a)
+    }
+
+    fn multipliers(&self, t: f64, q: &[f64], v: &[f64], lambda: &mut [f64]) -> f64 {
+        self.evaluate(CodeFunction::Multipliers, t, (q, v), lambda)
+    }
+
+    fn phi(&self, t: f64, q: &[f64], phi: &mut [f64]) {
+        self.evaluate(CodeFunction::Phi, t, (q, &[]), phi);
+    }
+
+    fn velocity_residual(&self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]) {
+        self.evaluate(CodeFunction::VelocityResidual, t, (q, v), out);
+    }
+
+    fn position_correction(&self, t: f64, q: &[f64], phi: &[f64], dq: &mut [f64]) -> f64 {
+        self.evaluate(CodeFunction::PositionCorrection, t, (q, phi), dq)
+    }
+
+    fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64 {
+        self.evaluate(CodeFunction::VelocityCorrection, t, (q, residual), dv)
+    }
+}

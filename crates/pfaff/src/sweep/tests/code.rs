@@ -1,0 +1,160 @@
+//! Runs on code, several at once, compared with each run alone and with the interpreter.
+
+use super::super::make::{Keep, TOGETHER};
+use super::*;
+
+/// A cart on two knife edges, whose forces along them are not unique, with a pendulum.
+const CART: &str = r#"
+scene = { name = "cart", space = "plane", gravity = [0.0, -9.81] }
+body = [
+    { name = "cart", mass = 10.0, inertia = 1.0, velocity = [1.0, 0.0], angular_velocity = 0.5 },
+    { name = "bob", mass = 2.0, inertia = 0.02, position = [0.7, -0.4] },
+]
+joint = [
+    { name = "left", type = "knife-edge", body = "cart", at = [0.0, 0.5], normal = [0.0, 1.0] },
+    { name = "right", type = "knife-edge", body = "cart", at = [0.0, -0.5], normal = [0.0, 1.0] },
+    { name = "pivot", type = "revolute", bodies = ["cart", "bob"], at = [0.3, 0.0] },
+]
+simulate = { t_end = 2.0, output_step = 0.1, rtol = 1e-8, atol = 1e-10 }
+"#;
+
+/// A crank that turns through both dead centres, with a torsional spring and a function of time.
+const SLIDER: &str = r#"
+scene = { name = "slider", space = "plane", gravity = [0.0, -9.81] }
+body = [
+    { name = "crank", mass = 1.0, inertia = 0.01, position = [0.025, 0.0433012702], angle = 1.0471975512, angular_velocity = 20.0 },
+    { name = "rod", mass = 0.5, inertia = 0.004, position = [0.1936140661, 0.0433012702], angle = -0.2928427 },
+    { name = "slider", mass = 0.8, inertia = 0.001, position = [0.3372281323, 0.0] },
+]
+joint = [
+    { name = "A", type = "revolute", bodies = ["ground", "crank"], at = [0.0, 0.0] },
+    { name = "B", type = "revolute", bodies = ["crank", "rod"], at = [0.05, 0.0866025404] },
+    { name = "C", type = "revolute", bodies = ["rod", "slider"], at = [0.3372281323, 0.0] },
+    { name = "D", type = "translational", bodies = ["ground", "slider"], at = [0.0, 0.0], axis = [1.0, 0.0] },
+]
+simulate = { t_end = 1.0, output_step = 0.05, rtol = 1e-8, atol = 1e-10 }
+"#;
+
+const CASES: [(&str, &[&str]); 3] = [
+    (
+        CART,
+        &["body.cart.mass=8:14:6", "body.bob.inertia=0.01:0.05:5"],
+    ),
+    (
+        CART,
+        &["simulate.rtol=1e-7,1e-8", "joint.pivot.at[0]=0.1:0.5:14"],
+    ),
+    (
+        SLIDER,
+        &["body.rod.mass=0.2:1:6", "scene.gravity[1]=-20:0:5"],
+    ),
+];
+
+/// A row without the column of seconds.
+fn cells(row: &SweepRow) -> Vec<u64> {
+    let motion = row.motion.as_ref().expect("it moved");
+    let numbers = [
+        motion.t,
+        motion.max_position_residual,
+        motion.max_velocity_residual,
+        motion.energy_balance,
+        motion.start_correction,
+        motion.start_velocity_correction,
+    ];
+    let extremes = motion.extremes.iter();
+    let extremes = extremes.flat_map(|e| [e.force, e.force_time, e.torque, e.torque_time]);
+    let counts = [
+        motion.steps,
+        motion.rejected,
+        motion.evaluations,
+        motion.events,
+        motion.rank,
+        motion.redundancy,
+        motion.not_unique,
+        motion.fragile,
+    ];
+    let numbers = numbers.into_iter().chain(motion.state.iter().copied());
+    let numbers = numbers.chain(extremes).map(f64::to_bits);
+    counts.into_iter().chain(numbers).collect()
+}
+
+fn made_together(sweep: &Sweep<'_>) -> Vec<SweepRow> {
+    let runs: Vec<u64> = (1..=sweep.runs()).collect();
+    let mut rows = Vec::new();
+    for group in runs.chunks(TOGETHER) {
+        let mut sink = |row: SweepRow| {
+            rows.push(row);
+            Ok(())
+        };
+        let made = sweep.make(group, Keep::Rows, &|| false, &mut sink);
+        made.unwrap_or_else(|e| panic!("{e}"));
+    }
+    rows.sort_by_key(|row| row.run);
+    rows
+}
+
+/// Each run has the bits of the run alone, whatever is made at the same time.
+#[test]
+fn runs_made_together_are_those_made_alone() {
+    let registry = Registry::standard();
+    for (scene, vary) in CASES {
+        let sweep = sweep(&registry, scene, vary);
+        let evaluation = sweep.evaluation();
+        assert!(evaluation.starts_with("on generated code"), "{evaluation}");
+        let rows = made_together(&sweep);
+        assert_eq!(rows.len() as u64, sweep.runs());
+        for row in &rows {
+            assert_eq!((row.status, row.error.as_str()), (SweepStatus::Done, ""));
+            assert_eq!(cells(row), cells(&sweep.row(row.run)), "run {}", row.run);
+        }
+    }
+}
+
+/// The interpreter is another derivation of the same equations: rows agree to 1e-9.
+#[test]
+fn runs_on_code_are_those_of_the_interpreter() {
+    let registry = Registry::standard();
+    for (scene, vary) in CASES {
+        let on_code = sweep(&registry, scene, vary);
+        let interpreted = sweep(&registry, scene, vary);
+        interpreted
+            .code
+            .set(Err("for the test".to_owned()))
+            .unwrap_or_else(|_| panic!("no run has begun"));
+        let rows = made_together(&on_code);
+        for (row, other) in rows.iter().zip(made_together(&interpreted)) {
+            let (found, expected) = (row.motion.as_ref(), other.motion.as_ref());
+            let (found, expected) = (found.expect("moved"), expected.expect("moved"));
+            let state = found.state.iter().zip(&expected.state);
+            let forces = found.extremes.iter().zip(&expected.extremes);
+            let forces = forces.map(|(a, b)| (&a.force, &b.force));
+            for (a, b) in state.chain(forces) {
+                let same = (a - b).abs() <= 1e-9 * b.abs().max(1.0) || a.is_nan() && b.is_nan();
+                assert!(same, "run {} of {vary:?}: {a:e} {b:e}", row.run);
+            }
+            assert_eq!(found.steps, expected.steps, "run {}", row.run);
+        }
+    }
+}
+
+/// Where masses alone are varied, runs take the decisions of the scene without changes: the rows
+/// are those of deciding each time, bit for bit. Other joints are decided by themselves.
+#[test]
+fn decisions_are_shared_where_constraints_are_the_same() {
+    let registry = Registry::standard();
+    for (case, (scene, vary)) in CASES.into_iter().enumerate() {
+        let sharing = sweep(&registry, scene, vary);
+        let deciding = sweep(&registry, scene, vary);
+        for sweep in [&sharing, &deciding] {
+            let _ = sweep.code.set(Err("for the test".to_owned()));
+        }
+        assert!(deciding.described.set(None).is_ok());
+        for run in 1..=sharing.runs() {
+            let begun = sharing.begin(run).unwrap_or_else(|e| panic!("{e}"));
+            let described = sharing.described().expect("it can be analysed");
+            let is_shared = described.decides(&begun.study.prepared);
+            assert_eq!(is_shared, case != 1, "run {run} of {vary:?}");
+            assert_eq!(cells(&sharing.row(run)), cells(&deciding.row(run)));
+        }
+    }
+}
