@@ -202,7 +202,7 @@ impl<'r> Sweep<'r> {
     /// let masses = read("body.bob.mass=1:2:100").evaluation();
     /// assert!(masses.starts_with("on generated code, 8 runs at once; it takes 2 numbers"), "{masses}");
     /// let few = read("body.bob.mass=1,2").evaluation();
-    /// assert!(few.starts_with("interpreted: code is made for 24 runs"), "{few}");
+    /// assert!(few.starts_with("interpreted: code is made for 100 runs"), "{few}");
     /// ```
     #[must_use]
     pub fn evaluation(&self) -> String {

@@ -11,8 +11,8 @@ use scene_codegen::{CodeError, LANES, NotAnInput, Tape};
 use super::run::Described;
 use crate::study::Study;
 
-/// Sweeps of fewer runs are interpreted: making the code takes as long as some of them.
-const FEW: u64 = 24;
+/// Sweeps of fewer runs are interpreted: making the code takes as long as 10 to 30 of them.
+const FEW: u64 = 100;
 
 /// The code of all runs of a sweep.
 pub(super) struct SweepCode {

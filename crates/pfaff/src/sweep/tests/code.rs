@@ -38,15 +38,15 @@ simulate = { t_end = 1.0, output_step = 0.05, rtol = 1e-8, atol = 1e-10 }
 const CASES: [(&str, &[&str]); 3] = [
     (
         CART,
-        &["body.cart.mass=8:14:6", "body.bob.inertia=0.01:0.05:5"],
+        &["body.cart.mass=8:14:10", "body.bob.inertia=0.01:0.05:10"],
     ),
     (
         CART,
-        &["simulate.rtol=1e-7,1e-8", "joint.pivot.at[0]=0.1:0.5:14"],
+        &["simulate.rtol=1e-7,1e-8", "joint.pivot.at[0]=0.1:0.5:50"],
     ),
     (
         SLIDER,
-        &["body.rod.mass=0.2:1:6", "scene.gravity[1]=-20:0:5"],
+        &["body.rod.mass=0.2:1:10", "scene.gravity[1]=-20:0:10"],
     ),
 ];
 
