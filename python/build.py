@@ -61,7 +61,7 @@ def wheel(profile: str) -> Path:
         shutil.copyfile(HERE.parent / name, HERE / name)
     options = ["--profile", profile, "--out", str(WHEELS), "--compression-level", "9"]
     if profile == "release":
-        options += ["--strip", "--compression-level", "9"]
+        options.append("--strip")
     begun = time.monotonic()
     try:
         run(interpreter(), "-m", "maturin", "build", *options)
