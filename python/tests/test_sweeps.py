@@ -10,7 +10,7 @@ import subprocess
 import sys
 import textwrap
 import time
-from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -216,6 +216,32 @@ def test_the_number_of_shards_is_chosen(tmp_path: Path) -> None:
     assert len(list(tmp_path.glob("shards/*.rows"))) == 3
 
 
+class KilledWorker(Exception):
+    """What Dask raises when a task has lost its workers."""
+
+
+class Lossy(ThreadPoolExecutor):
+    """Loses the worker that tries runs."""
+
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        if fn is pfaff.cluster._tried:
+            lost: Future[Any] = Future()
+            lost.set_exception(KilledWorker())
+            return lost
+        return super().submit(fn, *args, **kwargs)
+
+
+def test_a_worker_that_is_lost_while_it_tries_runs_ends_nothing(
+    whole: SweepResult, tmp_path: Path
+) -> None:
+    with Lossy(3) as executor:
+        result = pfaff.cluster.sweep(SCENE, VARY, executor, out=tmp_path)
+    assert result.made == 40
+    _same(result, whole)
+    # As if all runs took as long as one shard: four for each worker.
+    assert len(list(tmp_path.glob("shards/*.rows"))) == 12
+
+
 def test_joblib(whole: SweepResult, tmp_path: Path) -> None:
     joblib = pytest.importorskip("joblib")
     parallel = joblib.Parallel(n_jobs=2)
@@ -255,20 +281,32 @@ DASK = """
         with LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
             with Client(cluster) as client:
                 print(*client.run(__import__("os").getpid).values(), flush=True)
+                retired = []
+
+                def at_progress(finished, of):
+                    if sys.argv[3] == "retire" and not retired and 0 < finished < of:
+                        retired.append(list(client.nthreads())[0])
+                        client.retire_workers(retired)
+
                 result = pfaff.cluster.sweep(
-                    scene, {"body.bob.mass": "1:3:3000"}, client, out=sys.argv[2], shards=20
+                    scene,
+                    {"body.bob.mass": "1:3:3000"},
+                    client,
+                    out=sys.argv[2],
+                    shards=20,
+                    on_progress=at_progress,
                 )
                 print(result.made, result.document["finished"], result.document["crashed"], flush=True)
 """
 
 
-def _dask(tmp_path: Path, out: Path) -> tuple[subprocess.Popen[str], list[int]]:
+def _dask(tmp_path: Path, out: Path, how: str = "") -> tuple[subprocess.Popen[str], list[int]]:
     pytest.importorskip("distributed")
     LONG.write(tmp_path / "scene.toml")
     script = tmp_path / "script.py"
     script.write_text(textwrap.dedent(DASK))
     child = subprocess.Popen(
-        [sys.executable, str(script), str(tmp_path / "scene.toml"), str(out)],
+        [sys.executable, str(script), str(tmp_path / "scene.toml"), str(out), how],
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,
@@ -290,6 +328,19 @@ def test_dask_loses_a_worker(many: SweepResult, tmp_path: Path) -> None:
     assert (finished, crashed) == (3000, 0)
     # What the lost worker had finished of its shards was not made again.
     assert 3000 - 300 <= made <= 3000
+    result = LONG.sweep(MANY, out)
+    assert (result.made, result.document["repeated"]) == (0, 0)
+    _same(result, many)
+
+
+def test_a_worker_of_dask_retires_and_others_go_on(many: SweepResult, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    child, _ = _dask(tmp_path, out, "retire")
+    text, _ = child.communicate(timeout=300)
+    made, finished, crashed = (int(word) for word in text.split())
+    # The shard that it left in order is continued, and none of its runs is suspected.
+    assert (finished, crashed) == (3000, 0)
+    assert 3000 - 150 <= made <= 3000
     result = LONG.sweep(MANY, out)
     assert (result.made, result.document["repeated"]) == (0, 0)
     _same(result, many)

@@ -24,6 +24,7 @@ use crate::error::MotionFault;
 use crate::options::MotionOptions;
 use crate::plan::{Plan, Wanted};
 use crate::prepare::Prepared;
+use caller::ShowRow;
 use component::run_component;
 
 pub use caller::{Stop, Watch};
@@ -84,10 +85,7 @@ impl Plan<'_> {
         stop: &Stop<'_>,
         mut row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
     ) -> Result<Summary, Box<Failure>> {
-        match self.components.len() {
-            1 => run_component(self, 0, (watch, stop), None, &mut row),
-            _ => several::run(self, (watch, stop), &mut row),
-        }
+        self.go((watch, stop), None, &mut row)
     }
 
     /// Like [`Plan::simulate_watched`] with the code of the mechanism evaluated by `evaluator`,
@@ -102,10 +100,22 @@ impl Plan<'_> {
         stop: &Stop<'_>,
         mut row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
     ) -> Result<Summary, Box<Failure>> {
-        let watched: (&Watch<'_>, &Stop<'_>) = (&|_| ControlFlow::Continue(()), stop);
+        self.go(
+            (&|_| ControlFlow::Continue(()), stop),
+            Some(evaluator),
+            &mut row,
+        )
+    }
+
+    fn go(
+        &self,
+        watched: (&Watch<'_>, &Stop<'_>),
+        evaluator: Option<&dyn SceneCode>,
+        row: &mut ShowRow<'_>,
+    ) -> Result<Summary, Box<Failure>> {
         match self.components.len() {
-            1 => run_component(self, 0, watched, Some(evaluator), &mut row),
-            _ => several::run(self, watched, &mut row),
+            1 => run_component(self, 0, watched, evaluator, row),
+            _ => several::run(self, watched, row),
         }
     }
 }

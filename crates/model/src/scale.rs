@@ -86,12 +86,13 @@ impl Scales<'_> {
         bounds.collect()
     }
 
-    /// Size of the terms of row `i` of Φ for entries below `bounds`, as in [`Scales::position`].
-    #[must_use]
-    pub fn bounded_position(mechanism: &Mechanism, bounds: &[(usize, f64)], q: &[f64]) -> f64 {
-        let place = |j: usize| mechanism.space().position(q, j).abs();
-        let term = |&(j, c): &(usize, f64)| c * place(j).max(least(mechanism, j));
-        bounds.iter().map(term).sum()
+    /// Writes the size of the coordinate of each column of C, n_v: with [`Scales::entry_bounds`] of
+    /// a row it gives the size of the terms of this row of Φ, as in [`Scales::position`].
+    pub fn of_coordinates(mechanism: &Mechanism, q: &[f64], sizes: &mut [f64]) {
+        let space = mechanism.space();
+        for (j, size) in sizes.iter_mut().enumerate() {
+            *size = space.position(q, j).abs().max(least(mechanism, j));
+        }
     }
 
     /// Size of the terms of row `i` of `C·v − b`. Needs C and b at the pose of the scratch.

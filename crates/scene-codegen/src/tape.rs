@@ -10,14 +10,13 @@ use std::sync::Arc;
 
 use dynamics::code::{CodeFunction, CodeInput, CodeInputs, CodeSpec, SharedCode};
 use dynamics::{CodeMismatch, SceneCode};
-use model::record::{Input, TimeFunction};
+use model::record::TimeFunction;
 use model::{Mechanism, SpaceKind, System};
 
-use crate::equations::Source;
 use crate::error::CodeError;
 use crate::functions::{Functions, LIMIT};
 use crate::subject::Subject;
-use list::{List, PLACES};
+use list::{List, PLACES, Place};
 
 include!("support/cos_sin.in");
 include!("support/rotation.in");
@@ -368,30 +367,24 @@ fn evaluate<const L: usize>(
 ) {
     let of = |x: &[f64], k: usize| x.get(k).copied().unwrap_or(f64::NAN);
     let call = |l: usize| calls.get(l).unwrap_or(&calls[0]);
-    let mut known: Option<(usize, [[f64; 3]; L])> = None;
-    for &(source, place) in &list.inputs {
-        places[place] = match source {
-            Source::Mechanism(Input::Coordinate(k)) => from_fn(|l| of(call(l).q(), k)),
-            Source::Mechanism(Input::Velocity(k)) | Source::Rhs(k) => {
-                from_fn(|l| of(call(l).with(), k))
+    for l in 0..L {
+        let call = call(l);
+        let arrays = [
+            (call.q(), &list.coordinates),
+            (call.with(), &list.with),
+            (&*call.tape().values, &list.numbers),
+        ];
+        for (x, read) in arrays {
+            for &(k, place) in read {
+                places[usize::from(place)][l] = of(x, k);
             }
-            Source::Number(k) => from_fn(|l| of(&call(l).tape().values, k)),
-            Source::Mechanism(Input::Function {
-                function,
-                derivative,
-            }) => {
-                let jets = match known {
-                    Some((of, jets)) if of == function => jets,
-                    _ => from_fn(|l| {
-                        let call = call(l);
-                        call.tape().jet(function, call.t())
-                    }),
-                };
-                known = Some((function, jets));
-                jets.map(|jet| jet[derivative])
+        }
+        for (function, derivatives) in &list.functions {
+            let jet = call.tape().jet(*function, call.t());
+            for &(derivative, place) in derivatives {
+                places[usize::from(place)][l] = of(&jet, derivative);
             }
-            Source::Mechanism(Input::Cos(_) | Input::Sin(_) | Input::Rotation { .. }) => continue,
-        };
+        }
     }
     for &(k, [cos, sin]) in &list.angles {
         let x: [f64; L] = from_fn(|l| of(call(l).q(), k));
@@ -407,7 +400,7 @@ fn evaluate<const L: usize>(
         }
         for (place, value) in [(cos, c), (sin, s)] {
             if let Some(place) = place {
-                places[place] = value;
+                places[usize::from(place)] = value;
             }
         }
     }
@@ -422,14 +415,15 @@ fn evaluate<const L: usize>(
             }
         }
         for &(entry, place) in entries {
-            places[place] = all[entry];
+            places[usize::from(place)] = all[entry];
         }
     }
     list.execute(places);
     for (l, call) in calls.iter_mut().enumerate() {
-        let shares = list.shares.iter().map(|&place| places[place][l]);
+        let at = |&place: &Place| places[usize::from(place)][l];
+        let shares = list.shares.iter().map(at);
         let health = shares.fold(f64::INFINITY, least);
-        call.take(health, list.out.iter().map(|&place| places[place][l]));
+        call.take(health, list.out.iter().map(at));
     }
 }
 

@@ -13,6 +13,7 @@ for one that was begun continues it. So whatever repeats lost work may do so.
 
 from __future__ import annotations
 
+import functools
 import json
 import math
 import os
@@ -22,7 +23,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from importlib import import_module
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -100,9 +101,33 @@ def make_shard(shard: Shard) -> Done:
 def _made(
     shard: Shard, on_runs: Callable[[int, int], object] | None, stop: Callable[[], bool] | None
 ) -> Done:
-    of = _pfaff.Sweep(shard.name, shard.text, list(shard.vary), shard.keep_rows)
+    of = _sweep_of(shard.name, shard.text, shard.vary, shard.keep_rows)
     summary, made, tables = of.make(shard.out, shard.k, shard.n, shard.threads, on_runs, stop)
     return Done(shard.k, made, tables, json.loads(summary))
+
+
+@functools.lru_cache(maxsize=2)
+def _sweep_of(name: str, text: str, vary: tuple[str, ...], keep_rows: bool) -> _pfaff.Sweep:
+    """A sweep, with what is known of all of its runs; the shards of a worker share it."""
+    return _pfaff.Sweep(name, text, list(vary), keep_rows)
+
+
+def _tried(shard: Shard) -> float:
+    """How long one of all runs takes (s), from a few of them; a task of engines."""
+    of = _sweep_of(shard.name, shard.text, shard.vary, shard.keep_rows)
+    runs = of.runs
+    most = min(PROBES, runs)
+    tried = sorted({1 + k * (runs - 1) // max(1, most - 1) for k in range(most)})
+    # Not in their order, so that neighbours are not tried alone.
+    tried = tried[::3] + tried[1::3] + tried[2::3]
+    spent: list[float] = []
+    for run in tried:
+        spent.append(of.seconds(run))
+        if sum(spent) > PROBE_SECONDS:
+            break
+    # The first one is slower, because it comes first.
+    usual = spent[1:] or spent
+    return sum(usual) / len(usual)
 
 
 def _stop_of_worker() -> Callable[[], bool] | None:
@@ -205,7 +230,7 @@ def sweep(
     call in the same directory resumes a sweep, and a finished one is only read.
 
     ``shards`` is the number of parts; by default it is that of the directory, or such that each
-    takes some tens of seconds, for which a few runs are tried in this process. ``threads`` are
+    takes some tens of seconds, for which a worker tries a few runs. ``threads`` are
     those of one shard: one by default, and all cores without a client. Lost work is repeated up to
     ``retries`` times by the engine, and as often by this function.
 
@@ -213,7 +238,7 @@ def sweep(
     returns ``True``. ``progress`` shows a line; by default where standard error is a terminal.
     """
     texts = tuple(_texts(vary))
-    of = _pfaff.Sweep(scene.file, scene.text, list(texts), keep_rows)
+    of = _sweep_of(scene.file, scene.text, texts, keep_rows)
     engine = _engine(client)
     if shards is not None and shards < 1:
         raise wrong(f"shards is {shards}, need a number ≥ 1")
@@ -257,13 +282,13 @@ def _make_by(
     engine: _Engine, of: _pfaff.Sweep, part: Shard, shards: int | None, retries: int, told: _Told
 ) -> int:
     """Has made what is not finished; returns the number of runs that were made."""
-    n = shards or of.shards(part.out) or _number(of, engine.workers(part.threads))
+    n = shards or of.shards(part.out) or _number(engine, part, of.runs)
     left = of.unfinished(part.out, n)
     finished = of.runs - sum(_size(of.runs, k, n) for k in left)
     told.now(finished)
     made = 0
     has_tables = False
-    for done in engine.run([part._replace(k=k, n=n) for k in left], retries):
+    for done in engine.run(make_shard, [part._replace(k=k, n=n) for k in left], retries):
         made += done.made
         has_tables |= done.tables
         finished += done.summary["finished"]
@@ -280,21 +305,18 @@ def _size(runs: int, k: int, n: int) -> int:
     return k * runs // n - (k - 1) * runs // n
 
 
-def _number(of: _pfaff.Sweep, workers: int) -> int:
-    """The number of shards, from a few runs that are tried."""
-    runs = of.runs
-    most = min(PROBES, runs)
-    tried = sorted({1 + k * (runs - 1) // max(1, most - 1) for k in range(most)})
-    # Not in their order, so that neighbours are not tried alone.
-    tried = tried[::3] + tried[1::3] + tried[2::3]
-    spent: list[float] = []
-    for run in tried:
-        spent.append(of.seconds(run))
-        if sum(spent) > PROBE_SECONDS:
-            break
-    # The first one is slower, because it comes first.
-    usual = spent[1:] or spent
-    total = runs * sum(usual) / len(usual)
+def _number(engine: _Engine, part: Shard, runs: int) -> int:
+    """The number of shards, from a few runs that a worker tries."""
+    workers = engine.workers(part.threads)
+    try:
+        (seconds,) = engine.run(_tried, [part], 0)
+    except Exception as error:
+        if not _is_lost(error):
+            raise
+        # A run ends the process of its worker: shards find out which, and go on without it.
+        total = SHARD_SECONDS
+    else:
+        total = runs * seconds
     few = min(SHARDS_PER_WORKER * workers, math.ceil(total / SHARD_SECONDS_LEAST))
     n = max(1, few, math.ceil(total / SHARD_SECONDS))
     # All workers have something to do to the end.
@@ -357,6 +379,11 @@ class _Told:
             print(file=sys.stderr)
 
 
+T = TypeVar("T")
+Task = Callable[[Shard], T]
+"""What is done with a shard."""
+
+
 class _Engine:
     """What makes shards."""
 
@@ -367,8 +394,8 @@ class _Engine:
         """How many shards are made at the same time."""
         raise NotImplementedError
 
-    def run(self, shards: list[Shard], retries: int) -> Iterator[Done]:
-        """Makes shards, in any order."""
+    def run(self, task: Task[T], shards: list[Shard], retries: int) -> Iterator[T]:
+        """Does a task with each of some shards, in any order."""
         raise NotImplementedError
 
 
@@ -381,15 +408,14 @@ class _Dask(_Engine):
     def workers(self, threads: int) -> int:
         return max(1, int(sum(self.client.nthreads().values())))
 
-    def run(self, shards: list[Shard], retries: int) -> Iterator[Done]:
+    def run(self, task: Task[T], shards: list[Shard], retries: int) -> Iterator[T]:
         as_completed: Any = import_module("distributed").as_completed
         again = dict.fromkeys(shards, retries)
         names: dict[Any, Shard] = {}
 
         def submitted(some: list[Shard]) -> list[Any]:
-            futures = self.client.map(
-                make_shard, some, key="pfaff-shard", pure=False, retries=retries
-            )
+            key = f"pfaff-{task.__name__.strip('_')}"
+            futures = self.client.map(task, some, key=key, pure=False, retries=retries)
             names.update(zip((future.key for future in futures), some, strict=True))
             return list(futures)
 
@@ -416,10 +442,10 @@ class _Ray(_Engine):
         cores = int(self.client.cluster_resources().get("CPU", 1))
         return max(1, cores // max(1, threads))
 
-    def run(self, shards: list[Shard], retries: int) -> Iterator[Done]:
+    def run(self, task: Task[T], shards: list[Shard], retries: int) -> Iterator[T]:
         ray = self.client
         threads = max((shard.threads for shard in shards), default=1)
-        made = ray.remote(num_cpus=max(1, threads), max_retries=retries)(make_shard)
+        made = ray.remote(num_cpus=max(1, threads), max_retries=retries)(task)
         again = dict.fromkeys(shards, retries)
         waiting = {made.remote(shard): shard for shard in shards}
         try:
@@ -443,11 +469,11 @@ class _Joblib(_Engine):
         joblib: Any = import_module("joblib")
         return max(1, int(joblib.effective_n_jobs(self.client.n_jobs)))
 
-    def run(self, shards: list[Shard], retries: int) -> Iterator[Done]:
+    def run(self, task: Task[T], shards: list[Shard], retries: int) -> Iterator[T]:
         joblib: Any = import_module("joblib")
         for left in range(retries, -1, -1):
             try:
-                yield from self.client(joblib.delayed(make_shard)(shard) for shard in shards)
+                yield from self.client(joblib.delayed(task)(shard) for shard in shards)
                 return
             except Exception as error:
                 # Finished shards are found finished.
@@ -460,10 +486,10 @@ class _Executor(_Engine):
         most: int | None = getattr(self.client, "_max_workers", None)
         return max(1, most or os.cpu_count() or 1)
 
-    def run(self, shards: list[Shard], retries: int) -> Iterator[Done]:
+    def run(self, task: Task[T], shards: list[Shard], retries: int) -> Iterator[T]:
         from concurrent.futures import as_completed
 
-        futures = [self.client.submit(make_shard, shard) for shard in shards]
+        futures = [self.client.submit(task, shard) for shard in shards]
         try:
             for future in as_completed(futures):
                 yield future.result()

@@ -17,9 +17,9 @@ pub(crate) struct CodeProjection {
     /// Whether the code keeps each row of Φ and of C.
     keeps_position: Vec<bool>,
     keeps: Vec<bool>,
-    /// For each row, the columns of C with bounds on the entries in them.
-    bounds: Vec<Vec<(usize, f64)>>,
-    /// Sizes of the terms of each row, and the residuals.
+    bounds: Bounds,
+    /// Sizes of coordinates, sizes of the terms of each row, and the residuals.
+    coordinates: Vec<f64>,
     sizes: Vec<f64>,
     phi: Vec<f64>,
     residual: Vec<f64>,
@@ -27,6 +27,32 @@ pub(crate) struct CodeProjection {
     dv: Vec<f64>,
     /// The state before the projection.
     before: (Vec<f64>, Vec<f64>),
+}
+
+/// For each row, the columns of C with bounds on the entries in them.
+struct Bounds {
+    /// Where each row begins and the last one ends, m + h + 1.
+    start: Vec<usize>,
+    entries: Vec<(usize, f64)>,
+}
+
+impl Bounds {
+    fn new(rows: impl Iterator<Item = Vec<(usize, f64)>>) -> Self {
+        let (mut start, mut entries) = (vec![0], Vec::new());
+        for row in rows {
+            entries.extend(row);
+            start.push(entries.len());
+        }
+        Self { start, entries }
+    }
+
+    /// Writes the sizes of the terms of all rows for numbers x of the columns, n_v.
+    fn sizes(&self, x: &[f64], sizes: &mut [f64]) {
+        for (size, ends) in sizes.iter_mut().zip(self.start.windows(2)) {
+            let entries = &self.entries[ends[0]..ends[1]];
+            *size = entries.iter().map(|&(j, c)| c * x[j].abs()).sum();
+        }
+    }
 }
 
 impl CodeProjection {
@@ -39,7 +65,8 @@ impl CodeProjection {
         Self {
             keeps_position: keeps(&equations.position.kept, layout.m),
             keeps: keeps(&equations.velocity.kept, layout.rows()),
-            bounds: bounds.collect(),
+            bounds: Bounds::new(bounds),
+            coordinates: vec![0.0; layout.n_v],
             sizes: vec![0.0; layout.rows()],
             phi: vec![0.0; layout.m],
             residual: vec![0.0; layout.rows()],
@@ -75,9 +102,8 @@ impl CodeProjection {
         t: f64,
         (q, v): (&mut [f64], &mut [f64]),
     ) -> Result<Correction, Doubt> {
-        for (size, bounds) in self.sizes.iter_mut().zip(&self.bounds) {
-            *size = model::Scales::bounded_position(mechanism, bounds, q);
-        }
+        model::Scales::of_coordinates(mechanism, q, &mut self.coordinates);
+        self.bounds.sizes(&self.coordinates, &mut self.sizes);
         let mut positions = Positions {
             all: self,
             code,
@@ -174,9 +200,7 @@ impl Level for Velocities<'_> {
         self.code
             .velocity_residual(self.t, self.q, self.v, residual);
         if corrections > 0 {
-            for (size, bounds) in all.sizes.iter_mut().zip(&all.bounds) {
-                *size = bounds.iter().map(|&(j, c)| c * self.v[j].abs()).sum();
-            }
+            all.bounds.sizes(self.v, &mut all.sizes);
             // Rows of bodies at rest contain the rounding of others.
             let least = CODE_AT_REST * largest(&all.sizes);
             for size in &mut all.sizes {

@@ -95,7 +95,7 @@ impl Sample<'_, '_> {
     /// If the equations have no unique solution at this state.
     pub fn multipliers(&mut self) -> Result<Vec<f64>, MotionFault> {
         match &mut self.source {
-            Source::Motion(source) => source.multipliers(self.q, self.v),
+            Source::Motion(source) => source.multipliers(self.q, self.v).map(<[f64]>::to_vec),
             Source::Several(values) => values.multipliers.clone(),
         }
     }
@@ -134,10 +134,16 @@ impl OfMotion<'_, '_> {
         Ok(a)
     }
 
-    fn multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
-        if let Some(lambda) = &self.lambda {
-            return Ok(lambda.clone());
-        }
+    /// Multipliers, computed at the first request.
+    fn multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<&[f64], MotionFault> {
+        let lambda = match self.lambda.take() {
+            Some(lambda) => lambda,
+            None => self.solve_multipliers(q, v)?,
+        };
+        Ok(self.lambda.insert(lambda))
+    }
+
+    fn solve_multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
         let mechanism = self.motion.mechanism();
         let mut lambda = vec![f64::NAN; mechanism.layout().rows()];
         if self.wanted.reactions.is_empty() {
@@ -157,17 +163,12 @@ impl OfMotion<'_, '_> {
                 group.rows.iter().for_each(|row| lambda[row] = f64::NAN);
             }
         }
-        self.lambda = Some(lambda.clone());
         Ok(lambda)
     }
 
     fn reactions(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<Reaction>, MotionFault> {
-        let lambda = self.multipliers(q, v)?;
-        Ok(self.reactions_of(&lambda))
-    }
-
-    /// Reactions of the given multipliers.
-    fn reactions_of(&self, lambda: &[f64]) -> Vec<Reaction> {
+        self.multipliers(q, v)?;
+        let lambda = self.lambda.as_deref().unwrap_or_default();
         let mechanism = self.motion.mechanism();
         let reactions = mechanism.reactions(self.motion.scratch());
         let mut block = Vec::new();
@@ -179,20 +180,14 @@ impl OfMotion<'_, '_> {
             }
         };
         let ids = mechanism.layout().constraint_ids().enumerate();
-        ids.map(reaction).collect()
+        Ok(ids.map(reaction).collect())
     }
 
     fn values(&mut self, q: &[f64], v: &[f64]) -> Values {
-        let acceleration = self.acceleration(q, v);
-        let multipliers = self.multipliers(q, v);
-        let reactions = match &multipliers {
-            Ok(lambda) => Ok(self.reactions_of(lambda)),
-            Err(fault) => Err(fault.clone()),
-        };
         Values {
-            acceleration,
-            multipliers,
-            reactions,
+            acceleration: self.acceleration(q, v),
+            multipliers: self.multipliers(q, v).map(<[f64]>::to_vec),
+            reactions: self.reactions(q, v),
         }
     }
 

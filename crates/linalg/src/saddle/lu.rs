@@ -135,13 +135,17 @@ impl Choice<'_> {
 /// Rows in the given order of elimination, or in one of approximately minimum degree if its factors
 /// need fewer entries.
 fn order(n: usize, columns: &[Vec<usize>]) -> Vec<usize> {
+    let given = Vec::from_iter(0..columns.len());
+    if columns.iter().all(|columns| columns.len() == n) {
+        // Dense rows fill their triangles in every order.
+        return given;
+    }
     let mut touching = vec![Vec::new(); n];
     for (row, columns) in columns.iter().enumerate() {
         columns
             .iter()
             .for_each(|&column| touching[column].push(row));
     }
-    let given = Vec::from_iter(0..columns.len());
     let other = minimum_degree(columns.len(), &touching);
     let [of_given, of_other] = [&given, &other].map(|order| {
         let columns: Vec<&[usize]> = order.iter().map(|&row| &columns[row][..]).collect();

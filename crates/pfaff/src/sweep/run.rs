@@ -211,8 +211,8 @@ struct Watch<'s> {
     begun: &'s Begun,
     /// Time of the last state (s).
     t_state: f64,
-    /// The last state, body by body in the order of trajectories.
-    state: Vec<f64>,
+    /// The last coordinates and velocities; none before the first row.
+    last: Option<(Vec<f64>, Vec<f64>)>,
     /// The requested reactions, and whether each is unique.
     reactions: Vec<(usize, bool)>,
     extremes: Vec<Extreme>,
@@ -220,18 +220,16 @@ struct Watch<'s> {
 
 impl<'s> Watch<'s> {
     fn new(begun: &'s Begun) -> Self {
-        let mechanism = &begun.study.prepared.mechanism;
         let is_unique = |k: usize| {
             let verdict = begun.analysis.reactions.get(k).map(|r| &r.wrench.verdict);
             verdict.is_some_and(|v| v.is_unique())
         };
         // Nothing is unique of a reaction that this run does not have.
         let known = |&k: &Option<usize>| k.map_or((0, false), |k| (k, is_unique(k)));
-        let columns = mechanism.space().columns().len();
         Self {
             begun,
             t_state: f64::NAN,
-            state: vec![f64::NAN; columns * mechanism.bodies().len()],
+            last: None,
             reactions: begun.reactions.iter().map(known).collect(),
             extremes: vec![Extreme::UNKNOWN; begun.reactions.len()],
         }
@@ -250,14 +248,12 @@ impl<'s> Watch<'s> {
 
     fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), MotionFault> {
         self.t_state = sample.t;
-        let mechanism = self.mechanism();
-        let columns = mechanism.space().columns().len();
-        for (body, state) in self.state.chunks_exact_mut(columns).enumerate() {
-            let frame = mechanism.frames().body(body, sample.q, sample.v);
-            state
-                .iter_mut()
-                .zip(frame.numbers())
-                .for_each(|(to, x)| *to = x);
+        match &mut self.last {
+            Some((q, v)) => {
+                q.copy_from_slice(sample.q);
+                v.copy_from_slice(sample.v);
+            }
+            last => *last = Some((sample.q.to_vec(), sample.v.to_vec())),
         }
         if !self.reactions.iter().any(|(_, is_unique)| *is_unique) {
             return Ok(());
@@ -270,6 +266,20 @@ impl<'s> Watch<'s> {
             }
         }
         Ok(())
+    }
+
+    /// The last state, body by body in the order of trajectories; NaN if there is none.
+    fn state(&self) -> Vec<f64> {
+        let mechanism = self.mechanism();
+        let bodies = 0..mechanism.bodies().len();
+        match &self.last {
+            Some((q, v)) => {
+                let frames = mechanism.frames();
+                let of_body = |body| frames.body(body, q, v).numbers();
+                bodies.flat_map(of_body).collect()
+            }
+            None => vec![f64::NAN; mechanism.space().columns().len() * bodies.len()],
+        }
     }
 
     fn motion(self, summary: &Summary) -> SweepMotion {
@@ -303,7 +313,7 @@ impl<'s> Watch<'s> {
             not_unique: not_unique.count() as u64,
             fragile: *fragile,
             t_state: self.t_state,
-            state: self.state,
+            state: self.state(),
             extremes: self.extremes,
         }
     }

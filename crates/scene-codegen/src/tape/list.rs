@@ -16,7 +16,7 @@ use symbolic::{Binary, Function, Number as _, Op, Program, Value};
 use crate::equations::Source;
 
 /// Index of a storage place. No index is too large for [`PLACES`], so none is checked.
-type Place = u16;
+pub(super) type Place = u16;
 
 /// Number of storage places, of which a list uses the first ones.
 pub(super) const PLACES: usize = 1 << 16;
@@ -54,18 +54,22 @@ enum Do {
 /// One function as a list.
 #[derive(Default)]
 pub(super) struct List {
-    /// Where inputs come from, and their places; those of rotations are apart.
-    pub(super) inputs: Vec<(Source, usize)>,
+    /// Coordinates, entries of what is given with them, and numbers of a tape, each with its place.
+    pub(super) coordinates: Vec<(usize, Place)>,
+    pub(super) with: Vec<(usize, Place)>,
+    pub(super) numbers: Vec<(usize, Place)>,
+    /// Functions of time with derivatives and the places of these.
+    pub(super) functions: Vec<(usize, Vec<(usize, Place)>)>,
     /// Coordinates with the places of their cosines and sines.
-    pub(super) angles: Vec<(usize, [Option<usize>; 2])>,
+    pub(super) angles: Vec<(usize, [Option<Place>; 2])>,
     /// Bodies in space with entries of their rotations, by rows, and the places of these.
-    pub(super) rotations: Vec<(usize, Vec<(usize, usize)>)>,
+    pub(super) rotations: Vec<(usize, Vec<(usize, Place)>)>,
     constants: Vec<(f64, Place)>,
     steps: Vec<Do>,
     /// Places of the results.
-    pub(super) out: Vec<usize>,
+    pub(super) out: Vec<Place>,
     /// Places of the relative sizes of divisors.
-    pub(super) shares: Vec<usize>,
+    pub(super) shares: Vec<Place>,
 }
 
 impl List {
@@ -80,7 +84,7 @@ impl List {
             match op {
                 Op::Input(s) => {
                     let place = made.take(k)?;
-                    list.input(sources[s.index()], usize::from(place));
+                    list.input(sources[s.index()], place);
                 }
                 Op::Number(bits) => {
                     let place = made.take(k)?;
@@ -94,32 +98,25 @@ impl List {
             made.step(k, &mut list.steps)?;
         }
         let outputs = program.outputs().iter();
-        list.out = outputs.map(|v| usize::from(made.of(*v))).collect();
+        list.out = outputs.map(|v| made.of(*v)).collect();
         list.shares = list.out.split_off(n_out);
         Some(list)
     }
 
-    fn input(&mut self, source: Source, place: usize) {
-        let angle = |list: &mut Self, k: usize, which: usize| {
-            let known = list.angles.iter().position(|(at, _)| *at == k);
-            let known = known.unwrap_or_else(|| {
-                list.angles.push((k, [None; 2]));
-                list.angles.len() - 1
-            });
-            list.angles[known].1[which] = Some(place);
-        };
+    fn input(&mut self, source: Source, place: Place) {
         match source {
-            Source::Mechanism(Input::Cos(k)) => angle(self, k, 0),
-            Source::Mechanism(Input::Sin(k)) => angle(self, k, 1),
+            Source::Mechanism(Input::Coordinate(k)) => self.coordinates.push((k, place)),
+            Source::Mechanism(Input::Velocity(k)) | Source::Rhs(k) => self.with.push((k, place)),
+            Source::Number(k) => self.numbers.push((k, place)),
+            Source::Mechanism(Input::Function {
+                function,
+                derivative,
+            }) => of(&mut self.functions, function).push((derivative, place)),
+            Source::Mechanism(Input::Cos(k)) => of(&mut self.angles, k)[0] = Some(place),
+            Source::Mechanism(Input::Sin(k)) => of(&mut self.angles, k)[1] = Some(place),
             Source::Mechanism(Input::Rotation { body, row, column }) => {
-                let known = self.rotations.iter().position(|(at, _)| *at == body);
-                let known = known.unwrap_or_else(|| {
-                    self.rotations.push((body, Vec::new()));
-                    self.rotations.len() - 1
-                });
-                self.rotations[known].1.push((3 * row + column, place));
+                of(&mut self.rotations, body).push((3 * row + column, place));
             }
-            source => self.inputs.push((source, place)),
         }
     }
 
@@ -144,6 +141,16 @@ impl List {
             }
         }
     }
+}
+
+/// What is listed at a key, a new entry if there is none.
+fn of<T: Default>(list: &mut Vec<(usize, T)>, key: usize) -> &mut T {
+    let known = list.iter().position(|(at, _)| *at == key);
+    let known = known.unwrap_or_else(|| {
+        list.push((key, T::default()));
+        list.len() - 1
+    });
+    &mut list[known].1
 }
 
 /// Sums of one kind, in sequence.
@@ -435,16 +442,13 @@ mod tests {
                 .into_boxed_slice()
                 .try_into()
                 .expect("so many");
-            for (source, place) in &list.inputs {
-                let Source::Mechanism(Input::Coordinate(k)) = source else {
-                    panic!("{source:?}");
-                };
-                places[*place] = from_fn(|l| input(*k, l));
+            for (k, place) in &list.coordinates {
+                places[usize::from(*place)] = from_fn(|l| input(*k, l));
             }
             list.execute(&mut places);
             for l in 0..L {
                 let expected = program.run(|s| input(s.index(), l));
-                let found = list.out.iter().map(|place| places[*place][l]);
+                let found = list.out.iter().map(|place| places[usize::from(*place)][l]);
                 for (found, expected) in found.zip(expected) {
                     assert_eq!(
                         found.to_bits(),
