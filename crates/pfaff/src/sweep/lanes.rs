@@ -11,7 +11,7 @@ use corosensei::stack::DefaultStack;
 use corosensei::{Coroutine, CoroutineResult, Yielder};
 use dynamics::code::{CodeFunction, CodeSpec};
 use dynamics::{SceneCode, Stop};
-use scene_codegen::{Tape, TapeCall};
+use scene_codegen::{LANES, Tape, TapeCall};
 
 use super::SweepError;
 use super::make::Job;
@@ -67,6 +67,7 @@ pub(super) fn together(
             CoroutineResult::Return(outcome) => done(run, outcome)?,
         }
     }
+    let (mut lanes, mut answers) = (Vec::new(), Vec::new());
     loop {
         if interrupted() {
             stopped.store(true, Ordering::Relaxed);
@@ -77,10 +78,17 @@ pub(super) fn together(
         let Some(&function) = needed.filter(|f| !calls[f.index()].is_empty()) else {
             return Ok(());
         };
-        Tape::evaluate_all(function, &mut calls[function.index()]);
-        let lanes = std::mem::take(&mut waiting[function.index()]);
-        let answers = std::mem::take(&mut calls[function.index()]);
-        for ((run, mut lane), answer) in lanes.into_iter().zip(answers) {
+        // Who would leave lanes empty waits for others, if there are others to go on with.
+        let count = calls[function.index()].len();
+        let count = if count < LANES {
+            count
+        } else {
+            count - count % LANES
+        };
+        lanes.extend(waiting[function.index()].drain(..count));
+        answers.extend(calls[function.index()].drain(..count));
+        Tape::evaluate_all(function, &mut answers);
+        for ((run, mut lane), answer) in lanes.drain(..).zip(answers.drain(..)) {
             match lane.resume(Some(answer)) {
                 CoroutineResult::Yield(Wait { function, call }) => {
                     waiting[function.index()].push((run, lane));

@@ -12,7 +12,7 @@ use super::run::{Begun, Ended};
 use super::{Sweep, SweepError};
 
 /// Largest number of runs that are begun together.
-pub(super) const TOGETHER: usize = 16;
+pub(super) const TOGETHER: usize = 32;
 
 /// What is kept of runs besides their rows.
 #[derive(Clone, Copy, Debug)]
