@@ -8,14 +8,14 @@ use crate::motion::KeptRowMotion;
 use crate::options::{Method, MotionOptions, Stabilisation};
 use crate::plan::Decided;
 use crate::prepare::Prepared;
-use crate::run::Reduced;
+use crate::run::{Reduced, derivatives};
 
 /// The method of a run: the given one, or Dormand–Prince 8(5,3), or Radau IIA if forces make the
 /// motion stiff at its start. A mechanism without a degree of freedom leaves an implicit method no
 /// equation to solve.
 ///
 /// # Errors
-/// If the motion has no Jacobian at the start.
+/// If the motion has no Jacobian at the start, or never has one because a force calls a function.
 pub(crate) fn method(
     prepared: &Prepared,
     options: &MotionOptions,
@@ -34,11 +34,18 @@ pub(crate) fn method(
             source: SaddleError::Large { rows },
         });
     }
+    if options.method == Method::Radau5 {
+        derivatives(&prepared.mechanism)?;
+    }
     if options.method != Method::Auto {
         return Ok(decided(options.method, "requested".to_owned()));
     }
     if prepared.mechanism.applied_forces().is_empty() {
         return explicit("no applied forces, so that nothing can be stiff");
+    }
+    if let Some(called) = prepared.mechanism.applied_forces().called().next() {
+        let why = format!("{called} for implicit methods; whether it is stiff was not measured");
+        return explicit(&why);
     }
     if prepared.is_schur() {
         return explicit(

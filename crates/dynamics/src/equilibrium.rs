@@ -135,12 +135,16 @@ impl RestStability {
 /// - [`EquilibriumError::Prescribed`]: a drive or a joint prescribes a velocity.
 /// - [`EquilibriumError::Pushed`]: a free motion is pushed, however far it goes.
 /// - [`EquilibriumError::NotFound`]: the search did not end.
+/// - [`EquilibriumError::NoDerivatives`]: a force calls a function.
 /// - [`EquilibriumError::Start`], [`EquilibriumError::NotFinite`]: a configuration on the way
 ///   cannot be reached, or a force has no value there.
 pub fn equilibrium(
     prepared: &Prepared,
     options: &EquilibriumOptions,
 ) -> Result<Equilibrium, EquilibriumError> {
+    if let Some(force) = prepared.mechanism.applied_forces().called().next() {
+        return Err(EquilibriumError::NoDerivatives(force));
+    }
     let mut statics = Statics::new(prepared);
     statics.check_rest(&prepared.q)?;
     let falls = fall::falls(&mut statics, &prepared.q);

@@ -6,7 +6,7 @@ use integrators::IntegrationError;
 use linalg::{SaddleError, SingularPivot};
 use model::codes::Code;
 use model::words::{listed, rounded};
-use model::{RowLabel, StartError};
+use model::{CalledForce, RowLabel, StartError, UndefinedForce};
 use rank::Doubt;
 use solvability::{AnalysisError, Contradiction, StateError};
 
@@ -69,6 +69,26 @@ pub enum MotionFault {
         time: f64,
         /// Name of the value.
         what: String,
+    },
+    /// A called function did not give a finite value. The run ends: another step does not mend it.
+    #[error(
+        "at t = {t} s {source} has no value; a function has to return finite numbers wherever it is asked: the \
+         stages of a step, which may be made again, lie beside the motion", t = rounded(*time))]
+    Function {
+        /// Time (s).
+        time: f64,
+        /// The drive or force, with the state and the cause.
+        source: UndefinedForce,
+    },
+    /// A force calls a function, of which values alone are known.
+    #[error("{needs} derivatives of all forces, and {source}; {instead}")]
+    NoDerivatives {
+        /// What needs derivatives, with its verb.
+        needs: &'static str,
+        /// The force.
+        source: CalledForce,
+        /// What to do instead.
+        instead: &'static str,
     },
     /// Positions could not be moved back onto the constraints.
     #[error(
@@ -236,6 +256,8 @@ impl MotionFault {
             Self::IterationMatrix { .. } => const { Code::new(412) },
             Self::Massless { .. } => const { Code::new(413) },
             Self::NotFinite { .. } => const { Code::new(414) },
+            Self::Function { .. } => const { Code::new(426) },
+            Self::NoDerivatives { .. } => const { Code::new(427) },
             Self::OffConstraints { .. } => const { Code::new(415) },
             Self::DroppedRow { .. } => const { Code::new(416) },
             Self::BeyondTolerance { .. } => const { Code::new(425) },

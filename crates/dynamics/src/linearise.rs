@@ -21,6 +21,7 @@ mod reduce;
 use linalg::{DampedRows, Matrix};
 use model::System;
 
+use crate::error::MotionFault;
 use crate::held::{accelerated, rests};
 use crate::motion::KeptRowMotion;
 use crate::prepare::Prepared;
@@ -95,12 +96,19 @@ pub struct SecondOrder {
 /// - [`LineariseError::Coordinate`], [`LineariseError::Dependent`]: asked coordinates do not exist,
 ///   or do not determine the state.
 /// - [`LineariseError::NotASymmetry`]: the motion depends on a coordinate that is followed.
-/// - [`LineariseError::Fault`]: the equations have no solution there.
+/// - [`LineariseError::Fault`]: the equations have no solution there, or a force calls a function.
 pub fn linearise(
     prepared: &Prepared,
     (t, q, v): (f64, &[f64], &[f64]),
     options: &LineariseOptions,
 ) -> Result<Linearisation, LineariseError> {
+    if let Some(source) = prepared.mechanism.applied_forces().called().next() {
+        return Err(LineariseError::Fault(MotionFault::NoDerivatives {
+            needs: "a linearisation needs",
+            source,
+            instead: "give the drive a law of `measure`, `rate` and `t`",
+        }));
+    }
     let size = prepared.assembly.size;
     let at_rest = rests(&prepared.mechanism, size, v).then(|| prepared.held_at(t));
     let still = vec![0.0; v.len()];

@@ -18,6 +18,8 @@ mod sample;
 mod several;
 mod span;
 mod summary;
+#[cfg(test)]
+mod tests;
 
 use crate::code::SceneCode;
 use crate::error::MotionFault;
@@ -29,11 +31,36 @@ use component::run_component;
 
 pub use caller::{Stop, Watch};
 pub use reduced::Reduced;
+pub(crate) use reduced::derivatives;
 pub use sample::Sample;
 pub use summary::{ComponentSummary, Failure, Summary};
 
 /// Runs a prepared mechanism from t = 0 and passes rows at 0, at every output step and at the end
 /// to `row`: a plan with all output.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use dynamics::{MotionOptions, RowChoice, prepare, simulate};
+/// use joints::{Revolute, RevoluteAngleDrive};
+/// use model::{Body, BodyRef, Description, Law, Mechanism, StartOptions};
+/// // A wheel that a controller brings to 2 rad, without overshoot: J = 0.5, k = 8, c = 2·√(k·J).
+/// let mut d = Description::new("wheel");
+/// let wheel = d.body(Body::new("wheel", 1.0, 0.5));
+/// let (bodies, o) = ([BodyRef::Ground, wheel], [0.0, 0.0]);
+/// d.joint("shaft", &bodies, Revolute { s_i: o, s_j: o });
+/// let controller = Law::called(|at| Ok(8.0 * (2.0 - at.measure) - 4.0 * at.rate));
+/// d.drive_by_law("motor", &bodies, RevoluteAngleDrive::new(o, o), controller)?;
+/// let mechanism = Mechanism::build(&d).unwrap();
+/// let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)?;
+/// let mut angle = 0.0;
+/// simulate(&prepared, &MotionOptions::to(1.0), |row| {
+///     angle = row.q[2];
+///     Ok(ControlFlow::Continue(()))
+/// })?;
+/// // φ = 2 − 2·(1 + p·t)·e^(−p·t) with p = √(k/J) = 4.
+/// assert!((angle - (2.0 - 10.0 * (-4.0_f64).exp())).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// A failure contains the summary of the part that was completed; rows passed before remain valid.

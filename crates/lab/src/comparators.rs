@@ -26,6 +26,7 @@ mod tests;
 mod way;
 
 use linalg::{Matrix, SaddleError};
+use model::CalledForce;
 
 pub use kept_rows::KeptRows;
 pub use minimum_norm::MinimumNorm;
@@ -78,6 +79,9 @@ pub enum Fault {
         /// Time (s).
         time: f64,
     },
+    /// A force has no derivatives, which the method needs.
+    #[error(transparent)]
+    Called(#[from] CalledForce),
     /// Newton's iterations of an implicit step do not converge.
     #[error("the equations of a step cannot be solved")]
     Newton,

@@ -1,12 +1,14 @@
 //! A mechanism as plain data: the result of reading a scene, or written directly by a program.
 //! Nothing is checked here; [`crate::Mechanism::build`] checks everything once.
 
-use joints::spec::ConstraintSpec;
-use joints::{Plane, Space3};
+use joints::spec::{ConstraintSpec, Unit};
+use joints::{Constraint, Plane, Space3};
 
 pub use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, FramePose, SpatialBody};
+use crate::called::{BodyState, CallError, CalledWrench, Wrench};
 use crate::element::{BodySpace, ConstraintKernels, ForceKernels};
 use crate::function::Function;
+use crate::law::{Law, LawError};
 use crate::observed::Observed;
 use crate::space::SpaceKind;
 use crate::tolerance::Tolerance;
@@ -152,6 +154,106 @@ impl<S: BodySpace> Described<S> {
         })
     }
 
+    /// Adds a drive that applies a force (N) or torque (N·m) along its measure, by a law of the
+    /// measure, its rate and time, in place of a motion.
+    ///
+    /// ```
+    /// use joints::{Revolute, RevoluteAngleDrive};
+    /// use model::{Body, BodyRef, Description, Law, Mechanism, System};
+    /// // A wheel that a controller turns to 2 rad.
+    /// let mut d = Description::new("wheel");
+    /// let wheel = d.body(Body::new("wheel", 1.0, 0.5));
+    /// let (bodies, o) = ([BodyRef::Ground, wheel], [0.0, 0.0]);
+    /// d.joint("shaft", &bodies, Revolute { s_i: o, s_j: o });
+    /// let controller = Law::called(|at| Ok(3.0 * (2.0 - at.measure) - 0.5 * at.rate));
+    /// d.drive_by_law("motor", &bodies, RevoluteAngleDrive::new(o, o), controller)?;
+    /// let mechanism = Mechanism::build(&d).unwrap();
+    /// let mut s = mechanism.scratch();
+    /// mechanism.pose(0.0, &[0.0, 0.0, 1.0], &mut s);
+    /// mechanism.twist(&[0.0, 0.0, 4.0], &mut s);
+    /// mechanism.force(&mut s);
+    /// assert_eq!(s.force, [0.0, 0.0, 1.0]);
+    /// # Ok::<(), model::law::LawError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`LawError::Rows`]: the drive has several rows, or more than four bodies.
+    pub fn drive_by_law(
+        &mut self,
+        name: &str,
+        bodies: &[BodyRef],
+        element: impl Constraint<S>,
+        law: Law,
+    ) -> Result<(), LawError> {
+        self.forces.push(Force {
+            name: name.to_owned(),
+            bodies: bodies.to_vec(),
+            element: S::law(element, law)?,
+            functions: vec![Function::time()],
+        });
+        Ok(())
+    }
+
+    /// Adds a force and a torque on a body by a function that is called with the state of the body.
+    ///
+    /// ```
+    /// use model::{Body, Description, Mechanism, System, Wrench};
+    /// // A stone in the wind, which blows with 3 m/s along x.
+    /// let mut d = Description::new("stone");
+    /// let stone = d.body(Body::new("stone", 1.0, 0.1));
+    /// d.called_force("wind", stone, |at| {
+    ///     let push = [0.5 * (3.0 - at.velocity[0]), -0.5 * at.velocity[1], 0.0];
+    ///     Ok(Wrench { force: push, ..Wrench::default() })
+    /// });
+    /// let mechanism = Mechanism::build(&d).unwrap();
+    /// let mut s = mechanism.scratch();
+    /// mechanism.pose(0.0, &[0.0; 3], &mut s);
+    /// mechanism.twist(&[1.0, 2.0, 0.0], &mut s);
+    /// mechanism.force(&mut s);
+    /// assert_eq!(s.force, [1.0, -1.0, 0.0]);
+    /// ```
+    pub fn called_force(
+        &mut self,
+        name: &str,
+        body: BodyRef,
+        function: impl Fn(&BodyState) -> Result<Wrench, CallError> + Send + Sync + 'static,
+    ) {
+        self.forces.push(Force {
+            name: name.to_owned(),
+            bodies: vec![body],
+            element: S::wrench(CalledWrench::new(function)),
+            functions: vec![Function::time()],
+        });
+    }
+
+    /// Replaces the law of a drive; the measure stays what it is.
+    ///
+    /// # Errors
+    /// There is no drive by a law of this name.
+    pub fn set_law(&mut self, drive: &str, law: &Law) -> Result<(), SetLawError> {
+        let name = || drive.to_owned();
+        let found = self.forces.iter_mut().find(|force| force.name == drive);
+        if let Some(force) = found {
+            force.element = force
+                .element
+                .with_law(law)
+                .ok_or_else(|| SetLawError::Force { name: name() })?;
+            return Ok(());
+        }
+        let prescribed = self.drives.iter().find(|known| known.name == drive);
+        Err(match prescribed {
+            Some(found) => {
+                let mut units = found.element.spec().common.functions();
+                let turns = units.any(|(_, unit)| unit == Unit::Angle);
+                SetLawError::Motion {
+                    name: name(),
+                    load: if turns { "torque" } else { "force" },
+                }
+            }
+            None => SetLawError::Unknown { name: name() },
+        })
+    }
+
     /// Its bodies as those of a mechanism.
     #[must_use]
     pub fn records(&self) -> Vec<BodyRecord> {
@@ -166,6 +268,35 @@ impl<S: BodySpace> Described<S> {
         let described = body.moving().and_then(|at| self.bodies.get(at));
         described.map_or(point, |body| S::to_local(body, point))
     }
+}
+
+/// Reason why a law has no place.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SetLawError {
+    /// There is no such drive.
+    #[error("there is no drive `{name}`")]
+    Unknown {
+        /// The name.
+        name: String,
+    },
+    /// The drive prescribes a motion.
+    #[error(
+        "drive `{name}` prescribes a motion, and its {load} is what the motion needs; write \
+         `{load} = 0` in place of its `motion` to give it a law"
+    )]
+    Motion {
+        /// The drive.
+        name: String,
+        /// "force" or "torque".
+        load: &'static str,
+    },
+    /// The name is that of a force of another kind.
+    #[error("`{name}` is a force, not a drive by a law")]
+    Force {
+        /// The force.
+        name: String,
+    },
 }
 
 /// A mechanism before it is assembled, in the plane or in space.
@@ -282,6 +413,35 @@ impl AnyDescription {
         all.into_iter()
     }
 
+    /// Names of its drives by laws, springs on measures among them.
+    pub fn laws(&self) -> impl Iterator<Item = &str> {
+        let named: Vec<_> = either!(self, d => d
+            .forces
+            .iter()
+            .filter(|force| force.element.is_law())
+            .map(|force| force.name.as_str())
+            .collect());
+        named.into_iter()
+    }
+
+    /// Replaces the law of a drive; the measure stays what it is.
+    ///
+    /// # Errors
+    /// There is no drive by a law of this name.
+    pub fn set_law(&mut self, drive: &str, law: &Law) -> Result<(), SetLawError> {
+        either!(self, d => d.set_law(drive, law))
+    }
+
+    /// Adds a force and a torque on a body by a function that is called with the state of the body.
+    pub fn called_force(
+        &mut self,
+        name: &str,
+        body: BodyRef,
+        function: impl Fn(&BodyState) -> Result<Wrench, CallError> + Send + Sync + 'static,
+    ) {
+        either!(self, d => d.called_force(name, body, function));
+    }
+
     /// Names and bodies of its joints, drives and forces.
     pub fn connections(&self) -> impl Iterator<Item = (&str, &[BodyRef])> {
         let all: Vec<(&str, &[BodyRef])> = either!(self, d => {
@@ -390,3 +550,6 @@ pub struct Force<S: BodySpace = Plane> {
     /// Its functions of time, in the order of the definition.
     pub functions: Vec<Function>,
 }
+
+#[cfg(test)]
+mod tests;

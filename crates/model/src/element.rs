@@ -23,14 +23,14 @@ pub(crate) use turned::TurnedSlots;
 
 use joints::spec::{ConstraintSpec, ForceSpec};
 use joints::{
-    Argument, Constraint, Derivatives, Element, Force, ForceElement, Magnitude, Plane, Recorded,
-    Space3,
+    Constraint, Derivatives, Element, Force, ForceElement, Magnitude, Plane, Recorded, Space3,
 };
 use linalg::Dd;
 
 use crate::body::{Body, DescribedBody, SpatialBody};
+use crate::called::CalledWrench;
 use crate::coupling::{CouplingError, Measured, Placed, couple};
-use crate::law::{DriveForce, Law, LawError, build_law};
+use crate::law::{DriveForce, Law, LawError, Undefined, law_drive};
 use crate::space::SpaceKind;
 
 /// A space of kernels in which bodies are described: the plane, or space.
@@ -61,12 +61,16 @@ pub trait BodySpace: joints::Space + Sized {
     #[doc(hidden)]
     fn to_local(body: &Self::Body, point: Self::Vector<f64>) -> Self::Vector<f64>;
 
-    /// A law on the measure that `K` drives, from the arguments of its joint.
+    /// A law on the measure of a drive, in the place of its motion.
     #[doc(hidden)]
     fn law<K: Constraint<Self>>(
-        arguments: &[Argument],
+        drive: K,
         law: Law,
     ) -> Result<Box<dyn ForceKernels<Self>>, LawError>;
+
+    /// The kernels of a called wrench.
+    #[doc(hidden)]
+    fn wrench(wrench: CalledWrench) -> Box<dyn ForceKernels<Self>>;
 
     /// The constraint by which the second measure follows the first.
     #[doc(hidden)]
@@ -101,11 +105,12 @@ impl BodySpace for Plane {
         body.pose().to_local(point)
     }
 
-    fn law<K: Constraint>(
-        arguments: &[Argument],
-        law: Law,
-    ) -> Result<Box<dyn ForceKernels>, LawError> {
-        build_law::<K, Self>(arguments, law)
+    fn law<K: Constraint>(drive: K, law: Law) -> Result<Box<dyn ForceKernels>, LawError> {
+        law_drive(drive, law)
+    }
+
+    fn wrench(wrench: CalledWrench) -> Box<dyn ForceKernels> {
+        Box::new(wrench)
     }
 
     fn couple(
@@ -142,10 +147,14 @@ impl BodySpace for Space3 {
     }
 
     fn law<K: Constraint<Self>>(
-        arguments: &[Argument],
+        drive: K,
         law: Law,
     ) -> Result<Box<dyn ForceKernels<Self>>, LawError> {
-        build_law::<K, Self>(arguments, law)
+        law_drive(drive, law)
+    }
+
+    fn wrench(wrench: CalledWrench) -> Box<dyn ForceKernels<Self>> {
+        Box::new(wrench)
     }
 
     fn couple(
@@ -235,6 +244,24 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
     /// Whether this is a drive by a law.
     fn is_law(&self) -> bool {
         false
+    }
+    /// Whether it calls a function of which values alone are known: then its derivatives are NaN.
+    fn is_called(&self) -> bool {
+        false
+    }
+    /// Why its called function has no value, if that is the cause.
+    fn undefined(
+        &self,
+        _x: &[S::Pose<f64>],
+        _v: &[S::Twist<f64>],
+        _f: &[[f64; 3]],
+    ) -> Option<Undefined> {
+        None
+    }
+    /// The same drive by another law, of the same measure: since the start, if the present one is.
+    /// `None` if this is no drive by a law.
+    fn with_law(&self, _law: &Law) -> Option<Box<dyn ForceKernels<S>>> {
+        None
     }
     /// The force along the measure of a drive by a law.
     fn drive(

@@ -121,6 +121,12 @@ impl Function {
         Self::polynomial(&[value])
     }
 
+    /// The time itself, which laws of drives take.
+    #[must_use]
+    pub fn time() -> Self {
+        Self(Law::Polynomial(vec![0.0, 1.0]))
+    }
+
     /// `rate·t`
     ///
     /// # Errors

@@ -1,15 +1,20 @@
-//! Laws of drives: a force or torque as a function of a measure, its rate and time, as a small
-//! program that is evaluated without allocation, with its derivatives.
+//! Laws of drives: a force or torque as a function of a measure, its rate and time. A law is a
+//! small program that is evaluated without allocation, with its derivatives, or a function of the
+//! caller, of which values alone are known.
 //!
 //! Not here: how a law is written in a scene, and what its units are.
 
 mod drive;
 mod number;
+mod program;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use drive::build_law;
-use number::{Number, Slope, Smooth};
+pub(crate) use drive::{full, law_drive};
+
+use crate::called::{CallError, Called, DriveState};
+use number::{Slope, Smooth};
+use program::Program;
 
 /// One operation on a stack of numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,6 +88,10 @@ const DEEPEST: usize = 64;
 
 /// A force or torque as a function of a measure, its rate and time.
 ///
+/// A law of [operations](Law::new) has derivatives; of a [called](Law::called) function values
+/// alone are known, so that nothing that needs derivatives works with it: implicit methods,
+/// linearisation, a search for rest. Each of them refuses it by name.
+///
 /// ```
 /// use model::law::{Join, Law, Operation};
 /// // The torque of a motor, 20 N·m at rest and 0.5 N·m·s/rad less for each rad/s.
@@ -99,13 +108,20 @@ const DEEPEST: usize = 64;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
-    operations: Box<[Operation]>,
+    form: Form,
     /// Whether the measure is counted from the start.
     pub(crate) since_start: bool,
 }
 
+/// How a law is evaluated.
+#[derive(Clone, Debug, PartialEq)]
+enum Form {
+    Program(Program),
+    Called(Called<DriveState, f64>),
+}
+
 /// The force of a drive by a law, and what it depends on.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DriveForce {
     /// The measure (m or rad).
     pub measure: f64,
@@ -147,8 +163,8 @@ pub enum LawError {
     Argument(#[from] joints::ArgumentError),
 }
 
-/// The part of a law that has no finite value.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Why a law has no finite value, or no derivatives.
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Undefined {
     /// A function of one number.
@@ -157,13 +173,27 @@ pub enum Undefined {
     Join(Join, f64, f64),
     /// The measure has no direction, or a number is not finite.
     Input,
+    /// A called function returned this, which is not a finite number.
+    Returned(String),
+    /// A called function failed, with this message.
+    Failed(String),
+    /// More is asked of a called function than its value.
+    ValueAlone,
+}
+
+impl Undefined {
+    /// Whether a called function is the cause: another state does not mend it.
+    #[must_use]
+    pub fn is_of_function(&self) -> bool {
+        matches!(self, Self::Returned(_) | Self::Failed(_))
+    }
 }
 
 impl std::error::Error for Undefined {}
 
 impl std::fmt::Display for Undefined {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match *self {
+        match self {
             Self::Join(Join::Divide, _, 0.0) => f.write_str("division by zero"),
             Self::Apply(Function::Log, a) => write!(f, "log({a})"),
             Self::Apply(Function::Root, a) => write!(f, "sqrt({a})"),
@@ -175,6 +205,9 @@ impl std::fmt::Display for Undefined {
             Self::Join(Join::Angle, a, b) => write!(f, "atan2({a}, {b})"),
             Self::Apply(..) | Self::Join(..) => f.write_str("a result that is too large"),
             Self::Input => f.write_str("a measure without a value"),
+            Self::Returned(x) => write!(f, "its function returned {x}"),
+            Self::Failed(why) => write!(f, "its function failed: {why}"),
+            Self::ValueAlone => f.write_str("a function that is called has values alone"),
         }
     }
 }
@@ -185,26 +218,39 @@ impl Law {
     /// # Errors
     /// If they do not leave one number, or need more than 64 at a time.
     pub fn new(operations: &[Operation]) -> Result<Self, LawError> {
-        let mut left: usize = 0;
-        for operation in operations {
-            let takes = match operation {
-                Operation::Apply(_) => 1,
-                Operation::Join(_) => 2,
-                _ => 0,
-            };
-            let rest = left.checked_sub(takes);
-            left = rest.ok_or(LawError::Incomplete { left })? + 1;
-            if left > DEEPEST {
-                return Err(LawError::Deep);
-            }
+        Ok(Self {
+            form: Form::Program(Program::new(operations)?),
+            since_start: false,
+        })
+    }
+
+    /// A law that calls a function, which returns the force (N) or torque (N·m), or an error.
+    ///
+    /// The function is called at stages of an integrator, at rows of output, and again where a step
+    /// is made anew: not in the order of time, and several times for one instant. It has to return
+    /// the same for the same state. What is not finite, and an error, ends a run by name.
+    ///
+    /// ```
+    /// use model::Law;
+    /// // A motor that is switched off at 10 rad/s.
+    /// let law = Law::called(|at| Ok(if at.rate < 10.0 { 20.0 - 0.5 * at.rate } else { 0.0 }));
+    /// assert_eq!(law.value(0.0, 4.0, 0.0), Ok(18.0));
+    /// assert!(law.is_called() && law.slopes(0.0, 4.0, 0.0).is_err());
+    /// ```
+    #[must_use]
+    pub fn called(
+        function: impl Fn(&DriveState) -> Result<f64, CallError> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            form: Form::Called(Called::new(function)),
+            since_start: false,
         }
-        match left {
-            1 => Ok(Self {
-                operations: operations.into(),
-                since_start: false,
-            }),
-            left => Err(LawError::Incomplete { left }),
-        }
+    }
+
+    /// Whether it calls a function.
+    #[must_use]
+    pub fn is_called(&self) -> bool {
+        matches!(self.form, Form::Called(_))
     }
 
     /// The same law of the change of the measure since the assembled start.
@@ -216,76 +262,36 @@ impl Law {
         }
     }
 
-    /// The force (N) or torque (N·m); does not allocate.
+    /// The force (N) or torque (N·m); does not allocate, unless a called function does.
     ///
     /// # Errors
     /// If it has no finite value.
     pub fn value(&self, measure: f64, rate: f64, t: f64) -> Result<f64, Undefined> {
-        self.evaluate([measure, rate, t])
+        self.force([measure, rate, t])
     }
 
     /// The force or torque with its derivatives by the measure and by its rate; does not allocate.
     /// A derivative that has no finite value is 0: it only guides implicit methods.
     ///
     /// # Errors
-    /// If the force has no finite value.
+    /// If the force has no finite value, and [`Undefined::ValueAlone`]: it calls a function.
     pub fn slopes(&self, measure: f64, rate: f64, t: f64) -> Result<[f64; 3], Undefined> {
         let Slope { value, by } = self.slope([measure, rate, t])?;
         Ok([value, by[0], by[1]])
     }
 
-    fn slope<T: Smooth>(&self, [measure, rate, t]: [T; 3]) -> Result<Slope<T>, Undefined> {
-        let [zero, one] = [T::from(0.0), T::from(1.0)];
-        let with = |value, by| Slope { value, by };
-        let Slope { value, by } = self.evaluate([
-            with(measure, [one, zero]),
-            with(rate, [zero, one]),
-            with(t, [zero, zero]),
-        ])?;
-        let finite = |x: T| match x.number() {
-            Some(x) if !x.is_finite() => zero,
-            _ => x,
-        };
-        Ok(with(value, by.map(finite)))
+    /// The value for measure, rate and time.
+    fn force<T: Smooth>(&self, inputs: [T; 3]) -> Result<T, Undefined> {
+        match &self.form {
+            Form::Program(program) => program.evaluate(inputs),
+            Form::Called(function) => T::called(function, inputs),
+        }
     }
 
-    /// The value of the program for measure, rate and time. Every result on the way has to be
-    /// finite.
-    fn evaluate<T: Number>(&self, inputs: [T; 3]) -> Result<T, Undefined> {
-        let mut stack = [inputs[0]; DEEPEST];
-        let mut top = 0;
-        let is_finite = |x: T| x.number().is_none_or(f64::is_finite);
-        if !inputs.into_iter().all(is_finite) {
-            return Err(Undefined::Input);
+    fn slope<T: Smooth>(&self, inputs: [T; 3]) -> Result<Slope<T>, Undefined> {
+        match &self.form {
+            Form::Program(program) => program.slope(inputs),
+            Form::Called(_) => Err(Undefined::ValueAlone),
         }
-        for &operation in &self.operations {
-            let taken = match operation {
-                Operation::Apply(_) => 1,
-                Operation::Join(_) => 2,
-                _ => 0,
-            };
-            // The number of values was checked when the law was made.
-            top -= taken;
-            let (a, b) = (stack[top], stack[(top + 1).min(DEEPEST - 1)]);
-            let result = match operation {
-                Operation::Number(x) => T::from(x),
-                Operation::Measure => inputs[0],
-                Operation::Rate => inputs[1],
-                Operation::Time => inputs[2],
-                Operation::Apply(f) => a.apply(f),
-                Operation::Join(j) => a.join(j, b),
-            };
-            if !is_finite(result) {
-                let number = |x: T| x.number().unwrap_or_default();
-                return Err(match operation {
-                    Operation::Apply(f) => Undefined::Apply(f, number(a)),
-                    Operation::Join(j) => Undefined::Join(j, number(a), number(b)),
-                    _ => Undefined::Input,
-                });
-            }
-            stack[top] = result;
-            top += 1;
-        }
-        Ok(stack[0])
     }
 }

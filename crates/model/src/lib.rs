@@ -40,9 +40,11 @@
 //! | `principal` | principal axes of bodies with products of inertia |
 //! | `observed` | markers, and measures between them |
 //! | `vectors` | poses, vectors and tensors of `nalgebra` for bodies in space |
+//! | `called` | forces that call a function of the caller |
 //! | [`reaction`] | multipliers to forces and torques |
 
 mod body;
+mod called;
 pub mod codes;
 pub mod coupling;
 mod data;
@@ -70,10 +72,11 @@ mod uncertainty;
 mod vectors;
 pub mod words;
 
+pub use called::{BodyState, CallError, CalledWrench, DriveState, Wrench};
 pub use data::{Data, DataBlock, DataGradients, DataUnit, ForceDerivatives, SHARED, explained};
 pub use description::{
     AnyDescription, Body, BodyRecord, BodyRef, Described, DescribedBody, Description, Drive, Force,
-    FramePose, Joint, Motion, SpatialBody, SpatialDescription,
+    FramePose, Joint, Motion, SetLawError, SpatialBody, SpatialDescription,
 };
 pub use element::{Bodies, BodySpace, ConstraintKernels, ForceKernels};
 pub use extended::Polished;
@@ -81,8 +84,8 @@ pub use frame::{FrameState, Frames};
 pub use function::{Function, FunctionError};
 pub use law::Law;
 pub use mechanism::{
-    AppliedForce, AppliedForces, BuildError, Buildable, Derivatives, Mechanism, Part, Places, Push,
-    Sparse, Work,
+    AppliedForce, AppliedForces, BuildError, Buildable, CalledForce, Derivatives, Mechanism, Part,
+    Places, Push, Sparse, UndefinedForce, Work,
 };
 /// The version whose poses, vectors and tensors bodies in space take.
 pub use nalgebra;

@@ -30,7 +30,7 @@ use crate::tolerance::Tolerance;
 pub use build::Buildable;
 pub use build_error::BuildError;
 pub use derivatives::{Derivatives, Sparse};
-pub use forces::{AppliedForce, AppliedForces, Push};
+pub use forces::{AppliedForce, AppliedForces, CalledForce, Push, UndefinedForce};
 pub(crate) use initial::{initialise, unmet_requirement, unmet_rows};
 pub(crate) use kernels::gyroscopic;
 pub use part::{Part, Places};

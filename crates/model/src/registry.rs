@@ -175,7 +175,7 @@ impl<S: BodySpace> Visitor<S> for Drives<S> {
         self.0.push(DriveDefinition {
             spec: &K::SPEC,
             build: build_constraint::<K, S>,
-            law: S::law::<K>,
+            law: build_law::<K, S>,
         });
     }
 }
@@ -206,6 +206,13 @@ fn build_constraint<K: Constraint<S>, S: BodySpace>(
     arguments: &[Argument],
 ) -> Result<Box<dyn ConstraintKernels<S>>, ArgumentError> {
     Ok(Box::new(K::from_arguments(arguments)?))
+}
+
+fn build_law<K: Constraint<S>, S: BodySpace>(
+    arguments: &[Argument],
+    law: Law,
+) -> Result<Box<dyn ForceKernels<S>>, LawError> {
+    S::law(K::from_arguments(arguments)?, law)
 }
 
 fn build_force<K: Force<S>, S: BodySpace>(

@@ -1,8 +1,8 @@
 //! Reasons why there are no results, or only a part of them.
 
-use dynamics::MotionError;
 use dynamics::equilibrium::EquilibriumError;
 use dynamics::linearise::LineariseError;
+use dynamics::{MotionError, MotionFault};
 use model::BuildError;
 use model::codes::Code;
 use rank::DeletionError;
@@ -198,6 +198,7 @@ impl StudyError {
                     | MotionError::Rows(_)
                     | MotionError::Option { .. }
                     | MotionError::Combination { .. }
+                    | MotionError::Fault(MotionFault::NoDerivatives { .. })
             ),
             Self::Linearise(e) => e.is_input(),
             Self::Equilibrium(e) => e.is_input(),

@@ -1,6 +1,7 @@
 //! Reasons why there is no code for a mechanism.
 
 use dynamics::{MotionError, MotionFault};
+use model::CalledForce;
 use scene::{Diagnostic, KeyError};
 
 /// The reason why a module could not be generated.
@@ -38,6 +39,9 @@ pub enum CodeError {
         /// The drive.
         drive: String,
     },
+    /// A force calls a function, which cannot be recorded.
+    #[error("{0}, and no code; run this scene interpreted")]
+    Called(CalledForce),
     /// Rotations of generated code come from angles in the plane and from quaternions in space.
     #[error(
         "generated code is for bodies that turn by an angle or by a quaternion only; run this scene interpreted"

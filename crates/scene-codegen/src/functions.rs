@@ -338,6 +338,9 @@ pub(crate) fn recordable(mechanism: &Mechanism) -> Result<(), CodeError> {
     if !matches!(mechanism.space(), SpaceKind::Plane | SpaceKind::Space3) {
         return Err(CodeError::Coordinates);
     }
+    if let Some(force) = mechanism.applied_forces().called().next() {
+        return Err(CodeError::Called(force));
+    }
     match mechanism.applied_forces().law_drives().next() {
         Some((drive, _)) => Err(CodeError::Law {
             drive: drive.to_owned(),
@@ -362,4 +365,26 @@ fn shares(e: &mut Equations, factored: &Factored) -> Vec<Value> {
         e.code.program.mul(divisor, unit)
     };
     factored.divisors.iter().map(share).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use model::{Body, Description, Wrench};
+
+    use super::*;
+
+    #[test]
+    fn forces_that_call_a_function_are_refused_by_name() {
+        let mut d = Description::new("stone");
+        let stone = d.body(Body::new("stone", 1.0, 1.0));
+        let still = Mechanism::build(&d).expect("builds");
+        assert!(recordable(&still).is_ok());
+        d.called_force("wind", stone, |_| Ok(Wrench::default()));
+        let blown = Mechanism::build(&d).expect("builds");
+        let refused = recordable(&blown).expect_err("it cannot be recorded");
+        assert_eq!(
+            refused.to_string(),
+            "force `wind` calls a function, which has no derivatives, and no code; run this scene interpreted"
+        );
+    }
 }

@@ -341,22 +341,19 @@ impl<S: SceneSpace> Drives<S> {
                 }
                 Err(error) => Some(error.to_string()),
             },
-            Action::Law(law) => {
-                match ((drive.law)(&arguments, law), Function::constant_rate(1.0)) {
-                    (Ok(element), Ok(time)) => {
-                        self.laws.list.push(Force {
-                            name: name.to_owned(),
-                            bodies: bodies.clone(),
-                            element,
-                            functions: vec![time],
-                        });
-                        self.laws.entries.push(entry);
-                        None
-                    }
-                    (Err(error), _) => Some(error.to_string()),
-                    (_, Err(error)) => Some(error.to_string()),
+            Action::Law(law) => match (drive.law)(&arguments, law) {
+                Ok(element) => {
+                    self.laws.list.push(Force {
+                        name: name.to_owned(),
+                        bodies: bodies.clone(),
+                        element,
+                        functions: vec![Function::time()],
+                    });
+                    self.laws.entries.push(entry);
+                    None
                 }
-            }
+                Err(error) => Some(error.to_string()),
+            },
         };
         if let Some(error) = refused {
             findings.error(

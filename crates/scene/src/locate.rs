@@ -213,6 +213,12 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
                 let span = entry.map(|entry| entry.first_of(&["mass"]));
                 (span.unwrap_or(0..0), "can move freely")
             }
+            MotionFault::NoDerivatives { source, .. } => {
+                (element_key(map, &source.name, &[]), "calls a function")
+            }
+            MotionFault::Function { source, .. } => {
+                (element_key(map, source.name(), &[]), "calls a function")
+            }
             _ => (map.section("simulate", ""), "in this run"),
         },
         _ => (map.section("simulate", ""), "in this run"),

@@ -128,23 +128,17 @@ impl<S: SceneSpace> Forces<S> {
         else {
             return;
         };
-        match ((drive.law)(&arguments, law), Function::constant_rate(1.0)) {
-            (Ok(element), Ok(time)) => {
+        match (drive.law)(&arguments, law) {
+            Ok(element) => {
                 self.list.push(Force {
                     name: name.to_owned(),
                     bodies,
                     element,
-                    functions: vec![time],
+                    functions: vec![Function::time()],
                 });
                 self.entries.push(entry);
             }
-            (Err(error), _) => findings.error(
-                Mistake::Registry,
-                at,
-                format!("{subject}: {error}"),
-                "not possible",
-            ),
-            (_, Err(error)) => findings.error(
+            Err(error) => findings.error(
                 Mistake::Registry,
                 at,
                 format!("{subject}: {error}"),

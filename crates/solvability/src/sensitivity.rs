@@ -268,9 +268,12 @@ fn by_sets(
         placed(&mut found, extent);
         Ok(found)
     };
-    each_joined(mechanism, (t, q, v), |joined| JudgedSet {
-        found: sensitivities(&joined),
-        extent: joined.extent.clone(),
+    each_joined(mechanism, (t, q, v), |joined, extent| JudgedSet {
+        found: match joined {
+            Ok(joined) => sensitivities(&joined),
+            Err(force) => Err(ChoiceError::from(force.clone()).into()),
+        },
+        extent: extent.clone(),
     })
 }
 

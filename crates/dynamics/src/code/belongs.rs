@@ -139,6 +139,9 @@ pub enum NoCode {
     /// States are not projected.
     #[error("code is watched by its projections, the stabilisation is {0}")]
     Stabilisation(&'static str),
+    /// A force calls a function.
+    #[error("a force or a law calls a function, which code does not")]
+    Called,
     /// Rows may be redundant within a stated tolerance only, and what they miss is a result.
     #[error(
         "rows are redundant within the stated tolerance, and code does not compute what they miss"
@@ -273,6 +276,9 @@ impl Prepared {
         match options.stabilisation {
             Stabilisation::Projection => {}
             other => return Err(NoCode::Stabilisation(other.name())),
+        }
+        if self.mechanism.applied_forces().called().next().is_some() {
+            return Err(NoCode::Called);
         }
         if self.may_miss {
             return Err(NoCode::Misfits);

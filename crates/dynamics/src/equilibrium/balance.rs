@@ -98,7 +98,7 @@ impl<'m> Statics<'m> {
         if let Some(at) = self.s.force.iter().position(|f| !f.is_finite()) {
             let what = mechanism.applied_forces().undefined(&mut self.s);
             return Err(EquilibriumError::NotFinite {
-                what: what.unwrap_or_else(|| "a force".to_owned()),
+                what: what.map_or_else(|| "a force".to_owned(), |force| force.to_string()),
                 body: mechanism.coordinate(at).0.to_owned(),
             });
         }

@@ -1,8 +1,8 @@
 //! Reasons why no place of rest was found.
 
-use model::StartError;
 use model::codes::Code;
 use model::words::{listed, rounded};
+use model::{CalledForce, StartError};
 
 use super::words::Pushed;
 
@@ -51,6 +51,12 @@ pub enum EquilibriumError {
         /// The body.
         body: String,
     },
+    /// A force calls a function, of which values alone are known.
+    #[error(
+        "a search for rest needs derivatives of all forces, and {0}; give the drive a law of `measure`, `rate` and `t`, \
+         or let a run with dampers come to rest"
+    )]
+    NoDerivatives(CalledForce),
     /// A configuration on the way cannot be reached.
     #[error("on the way to rest {0}")]
     Start(#[from] StartError),
@@ -76,6 +82,7 @@ impl EquilibriumError {
             Self::Prescribed { .. } => const { Code::new(225) },
             Self::Pushed(_) => const { Code::new(226) },
             Self::NotFound { .. } | Self::NotFinite { .. } => const { Code::new(227) },
+            Self::NoDerivatives(_) => const { Code::new(427) },
             Self::Start(error) => error.code(),
         }
     }
@@ -83,6 +90,9 @@ impl EquilibriumError {
     /// Whether other input may have a place of rest.
     #[must_use]
     pub fn is_input(&self) -> bool {
-        matches!(self, Self::Prescribed { .. } | Self::Pushed(_))
+        matches!(
+            self,
+            Self::Prescribed { .. } | Self::Pushed(_) | Self::NoDerivatives(_)
+        )
     }
 }

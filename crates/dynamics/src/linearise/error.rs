@@ -113,7 +113,11 @@ impl LineariseError {
     /// Whether other input may be linearised.
     #[must_use]
     pub fn is_input(&self) -> bool {
-        !matches!(self, Self::Singular | Self::Fault(_))
+        match self {
+            Self::Singular => false,
+            Self::Fault(fault) => matches!(fault, MotionFault::NoDerivatives { .. }),
+            _ => true,
+        }
     }
 }
 

@@ -24,6 +24,13 @@ pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart
             _ => "all bodies are connected".to_owned(),
         }));
     }
+    if let Some(called) = whole.mechanism.applied_forces().called().next() {
+        let kind = called.kind();
+        return Ok(stays(format!(
+            "{kind} `{}` calls a function: it is called by one thread, by steps of one clock",
+            called.name
+        )));
+    }
     if n > MOST_COMPONENTS {
         return Ok(stays(format!(
             "{n} do not feel each other, more than {MOST_COMPONENTS}: a thread for each would cost more"

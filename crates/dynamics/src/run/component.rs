@@ -88,7 +88,10 @@ pub(super) fn run_component(
     };
     let error = match (outcome, run.stopped) {
         (_, Some(error)) => error,
-        (Ok(_), None) => return Ok(summary),
+        (Ok(_), None) => match run.equations.failed.take() {
+            Some(fault) => fault.into(),
+            None => return Ok(summary),
+        },
         (Err(f), None) => match named(f.error) {
             MotionError::Integration(e) => match run.equations.cause(&e, f.t) {
                 Some(fault) => fault.into(),

@@ -51,6 +51,8 @@ pub(super) struct RunEquations<'m> {
     /// Whether stages of the present step were evaluated by generated code that is no longer in
     /// use; then the step begins again.
     is_void: bool,
+    /// The function that has ended the run by having no value.
+    pub(super) failed: Option<MotionFault>,
     /// Derivatives as functions of time, for a mechanism without degrees of freedom.
     by_time: Option<ByTime>,
     /// The last accepted step.
@@ -96,6 +98,7 @@ impl<'m> RunEquations<'m> {
             is_coarse: false,
             is_careful: false,
             is_void: false,
+            failed: None,
             by_time: ByTime::for_run(prepared, options),
             last: Span::default(),
             scratch: Scratch {
@@ -298,6 +301,13 @@ impl<'m> RunEquations<'m> {
         }
     }
 
+    /// Ends the run if a called function has no value.
+    fn note_failure(&mut self, fault: &MotionFault) {
+        if matches!(fault, MotionFault::Function { .. }) {
+            self.failed.get_or_insert_with(|| fault.clone());
+        }
+    }
+
     /// Within the last accepted step, states on independent coordinates are completed from where
     /// the step leads: what the integrator carries for the others is a guess over a whole step.
     fn lead_completion(&mut self, t: f64) {
@@ -479,7 +489,7 @@ impl Ode for RunEquations<'_> {
     }
 
     fn is_stopped(&self) -> bool {
-        (self.until.stop)()
+        self.failed.is_some() || (self.until.stop)()
     }
 
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
@@ -493,11 +503,12 @@ impl Ode for RunEquations<'_> {
         }
         let by_time = self.is_by_time();
         let Some(mut known) = self.by_time.take_if(|_| by_time) else {
-            return self.evaluate(t, y, dy);
+            let evaluated = self.evaluate(t, y, dy);
+            return evaluated.inspect_err(|fault| self.note_failure(fault));
         };
         let evaluated = known.recall(t, dy, |dy| self.evaluate(t, y, dy));
         self.by_time = Some(known);
-        evaluated
+        evaluated.inspect_err(|fault| self.note_failure(fault))
     }
 
     fn end_of_step(
@@ -514,6 +525,7 @@ impl Ode for RunEquations<'_> {
         match ended {
             Ok(end) => Ok(end),
             Err(Next::Stop(fault)) => {
+                self.note_failure(&fault);
                 self.motion.watch.note_refused(step.t, &fault);
                 Err(fault)
             }

@@ -51,7 +51,8 @@ use crate::solve::KeptEquations;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Reduced {
-    derivatives: Derivatives,
+    /// Storage, made when it is first needed.
+    derivatives: Option<Derivatives>,
     partition: Partition,
     /// Row j: column j of D.
     columns: Matrix,
@@ -138,7 +139,7 @@ impl Reduced {
         let mechanism = motion.mechanism();
         let layout = mechanism.layout();
         Self {
-            derivatives: Derivatives::of(mechanism),
+            derivatives: None,
             partition: Partition::default(),
             columns: Matrix::default(),
             on_w: Matrix::default(),
@@ -161,12 +162,29 @@ impl Reduced {
     /// switched to independent ones.
     ///
     /// # Errors
-    /// As [`KeptRowMotion::derivative`].
+    /// As [`KeptRowMotion::derivative`], and [`MotionFault::NoDerivatives`]: a force calls a
+    /// function.
     ///
     /// # Panics
     /// If y is shorter than n_q + n_v.
     pub fn linearise(
         &mut self,
+        motion: &mut KeptRowMotion<'_>,
+        t: f64,
+        y: &[f64],
+    ) -> Result<(), MotionFault> {
+        let mut d = match self.derivatives.take() {
+            Some(d) => d,
+            None => derivatives(motion.mechanism())?,
+        };
+        let done = self.linearise_with(&mut d, motion, t, y);
+        self.derivatives = Some(d);
+        done
+    }
+
+    fn linearise_with(
+        &mut self,
+        d: &mut Derivatives,
         motion: &mut KeptRowMotion<'_>,
         t: f64,
         y: &[f64],
@@ -184,13 +202,12 @@ impl Reduced {
         let equations = &mut motion.equations;
         let a = &dy[n_q..n_q + mechanism.layout().n_v];
         equations.multipliers_for(a, lambda)?;
-        self.derivatives
-            .differentiate(mechanism, a, lambda, &equations.at.s);
+        d.differentiate(mechanism, a, lambda, &equations.at.s);
         equations.position.factor(&equations.at)?;
         self.time = t;
         let reads = self.partition.reads.len();
         for j in 0..reads {
-            self.differentiate(motion, j)?;
+            self.differentiate(d, motion, j)?;
         }
         let entry = |i: usize, j| read(&self.partition.reads[i], self.columns.row(j));
         self.on_w = Matrix::from_fn(reads, reads, entry);
@@ -283,6 +300,7 @@ impl Reduced {
     /// Computes column j of D.
     fn differentiate(
         &mut self,
+        d: &Derivatives,
         motion: &mut KeptRowMotion<'_>,
         j: usize,
     ) -> Result<(), MotionFault> {
@@ -296,7 +314,7 @@ impl Reduced {
         let coordinates = coordinates.expect("linearise has chosen them");
         let mechanism = at.mechanism;
         let layout = mechanism.layout();
-        let (d, partition) = (&self.derivatives, &self.partition);
+        let partition = &self.partition;
         let Storage {
             dq,
             dv,
@@ -450,6 +468,15 @@ impl Reduced {
             }
         }
     }
+}
+
+/// Storage for the derivatives that implicit methods need.
+pub(crate) fn derivatives(mechanism: &Mechanism) -> Result<Derivatives, MotionFault> {
+    Derivatives::of(mechanism).map_err(|source| MotionFault::NoDerivatives {
+        needs: "method radau5 needs",
+        source,
+        instead: "take an explicit method: dop853, dopri5 or tsit5, or auto, which takes one",
+    })
 }
 
 /// Reads an entry of w from a vector like y.

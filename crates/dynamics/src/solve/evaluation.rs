@@ -88,9 +88,16 @@ impl<'m> Evaluation<'m> {
     pub(super) fn named(&mut self, fault: MotionFault) -> MotionFault {
         match fault {
             MotionFault::NotFinite { time, what } => {
-                let force = self.mechanism.applied_forces().undefined(&mut self.s);
-                let what = force.unwrap_or(what);
-                MotionFault::NotFinite { time, what }
+                match self.mechanism.applied_forces().undefined(&mut self.s) {
+                    Some(source) if source.is_of_function() => {
+                        MotionFault::Function { time, source }
+                    }
+                    Some(force) => MotionFault::NotFinite {
+                        time,
+                        what: force.to_string(),
+                    },
+                    None => MotionFault::NotFinite { time, what },
+                }
             }
             other => other,
         }

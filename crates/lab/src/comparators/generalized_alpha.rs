@@ -13,7 +13,7 @@
 
 use integrators::Ode;
 use linalg::{Lu, Matrix};
-use model::{Derivatives, Mechanism, Scratch, System};
+use model::{CalledForce, Derivatives, Mechanism, Scratch, System};
 
 use super::Fault;
 use super::equations::Equations;
@@ -69,7 +69,8 @@ pub(super) struct GeneralizedAlpha<'a> {
 }
 
 impl<'a> GeneralizedAlpha<'a> {
-    pub(super) fn new(mechanism: &'a Mechanism, kept: &[usize]) -> Self {
+    /// A force that calls a function is refused.
+    pub(super) fn new(mechanism: &'a Mechanism, kept: &[usize]) -> Result<Self, CalledForce> {
         let (layout, r) = (mechanism.layout(), kept.len());
         let n = layout.n_v + r;
         let memory = Memory {
@@ -77,10 +78,10 @@ impl<'a> GeneralizedAlpha<'a> {
             vd: vec![0.0; layout.n_v],
             lambda: vec![0.0; r],
         };
-        Self {
+        Ok(Self {
             mechanism,
             s: mechanism.scratch(),
-            derivatives: Derivatives::of(mechanism),
+            derivatives: Derivatives::of(mechanism)?,
             kept: kept.to_vec(),
             matrix: Matrix::zeros(n, n),
             lu: Lu::new(n),
@@ -90,7 +91,7 @@ impl<'a> GeneralizedAlpha<'a> {
             f0: vec![0.0; layout.n_q + layout.n_v],
             f1: vec![0.0; layout.n_q + layout.n_v],
             x: vec![0.0; n],
-        }
+        })
     }
 
     /// Computes positions and velocities at the end, and a there, from v' there.

@@ -104,7 +104,7 @@ pub fn run_within(
     let dim = equations.dim();
     let mut own: Box<dyn Stepper + '_> = match way.method {
         Method::Gbs => Box::new(Gbs::new(dim, tolerance)),
-        _ => Box::new(GeneralizedAlpha::new(&prepared.mechanism, kept)),
+        _ => Box::new(GeneralizedAlpha::new(&prepared.mechanism, kept)?),
     };
     let steps = match way.method {
         Method::Dop853 => integrated(&Dop853, &mut equations, &y0, times, &limits, show)?,

@@ -75,7 +75,8 @@ fn errors_fall_with_the_order() {
     let dim = exact.len();
     let gbs = |n| error(&mut Gbs::new(dim, 1.0), 1e300, n);
     let alpha = |n| {
-        let mut stepper = GeneralizedAlpha::new(&p.mechanism, &p.decision.kept);
+        let stepper = GeneralizedAlpha::new(&p.mechanism, &p.decision.kept);
+        let mut stepper = stepper.expect("no function is called");
         error(&mut stepper, 1e-8, n)
     };
     let order = |coarse: f64, fine: f64| (coarse / fine).log2();

@@ -17,6 +17,7 @@ const RARE: Example = Example::None("the machine or the numbers have to be speci
 const MACHINE: Example = Example::None("it depends on the machine");
 const LIBRARY: Example =
     Example::None("only programs meet it: the reader of scenes refuses it before");
+const CALLED: Example = Example::None("only programs have functions that are called");
 
 macro_rules! scene {
     ($text:literal) => {
@@ -1030,6 +1031,18 @@ pub const TABLE: &[Entry] = &[
         "A row misses by more than the stated tolerance explains",
         "Correct the dimensions of its joint, state the tolerance that the joint has, or end the run earlier.",
         RARE,
+    ),
+    entry(
+        426,
+        "A called function did not give a finite number",
+        "The message names the drive or the body, the time and what came back; a function has to return finite numbers wherever it is asked, also beside the motion.",
+        CALLED,
+    ),
+    entry(
+        427,
+        "A called function has no derivatives",
+        "Use an explicit method, or give the drive a law as a text where derivatives are needed.",
+        CALLED,
     ),
     entry(
         430,

@@ -9,7 +9,7 @@ use super::slots::{Site, Slots};
 use super::turned::TurnedSlots;
 use super::{AnyForce, Bodies, ForceKernels, with};
 use crate::body::BodyRef;
-use crate::law::DriveForce;
+use crate::law::{DriveForce, Undefined};
 
 /// A force with its indices in the mechanism.
 #[derive(Clone)]
@@ -105,6 +105,10 @@ impl PlacedForce {
         with!(AnyForce, &self.element, element, _S => element.is_law())
     }
 
+    pub(crate) fn is_called(&self) -> bool {
+        with!(AnyForce, &self.element, element, _S => element.is_called())
+    }
+
     pub(crate) fn initialise(&mut self, bodies: &Bodies) {
         if let (Some(turned), AnyForce::Space3(element)) = (&self.turned, &mut self.element) {
             let mut x = self.site.poses::<Space3, f64>(bodies);
@@ -178,6 +182,19 @@ impl PlacedForce {
         with!(AnyForce, &self.element, element, S => {
             let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
             element.drive(x, v, f)
+        })
+    }
+
+    /// Why its called function has no value.
+    pub(crate) fn undefined(&self, s: &Slots) -> Option<Undefined> {
+        if let Some((turned, kernels)) = self.between() {
+            let f = self.site.f(s);
+            let at = self.site.in_space(s);
+            return turned.with_frames(at, |x, v| kernels.undefined(x, v, f));
+        }
+        with!(AnyForce, &self.element, element, S => {
+            let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
+            element.undefined(x, v, f)
         })
     }
 

@@ -8,9 +8,7 @@
 //! is C/s. For a distance, s = |d|/L.
 
 use joints::spec::{ConstraintSpec, ForceSpec};
-use joints::{
-    Argument, Constraint, Definition, Derivatives, Element, ForceElement, Plane, Recorded, Space3,
-};
+use joints::{Constraint, Definition, Derivatives, Element, ForceElement, Plane, Recorded, Space3};
 
 use super::number::Smooth;
 use super::{DriveForce, Law, LawError};
@@ -42,9 +40,9 @@ enum Measured {
     Turn(f64),
 }
 
-/// Builds the law of a measure from the arguments of its joint.
-pub(crate) fn build_law<K: Constraint<S>, S: Kinematics>(
-    arguments: &[Argument],
+/// Puts a law in the place of the motion of a drive.
+pub(crate) fn law_drive<K: Constraint<S>, S: Kinematics>(
+    drive: K,
     law: Law,
 ) -> Result<Box<dyn ForceKernels<S>>, LawError>
 where
@@ -66,7 +64,7 @@ where
         Measured::ByRow
     };
     Ok(Box::new(LawDrive {
-        drive: K::from_arguments(arguments)?,
+        drive,
         law,
         constant: [0.0; MOST],
         measured,
@@ -231,9 +229,7 @@ impl<T: Smooth, K: Constraint<S>, S: Kinematics> ForceElement<T, S> for LawDrive
 
     fn q(&self, x: &[PoseOf<S, T>], v: &[TwistOf<S, T>], f: &[[T; 3]], out: &mut [T]) {
         let along = self.along::<T, S>(x, f);
-        let force = self
-            .law
-            .evaluate([along.measure, along.rate::<S>(v), f[0][0]]);
+        let force = self.law.force([along.measure, along.rate::<S>(v), f[0][0]]);
         let force = force.unwrap_or_else(|_| T::from(f64::NAN));
         for (out, g) in out.iter_mut().zip(along.gradient) {
             *out = force * g;
@@ -297,6 +293,21 @@ macro_rules! force_kernels {
                 true
             }
 
+            fn is_called(&self) -> bool {
+                self.law.is_called()
+            }
+
+            fn with_law(&self, law: &Law) -> Option<Box<dyn ForceKernels<$space>>> {
+                let law = Law {
+                    since_start: self.law.since_start,
+                    ..law.clone()
+                };
+                Some(Box::new(Self {
+                    law,
+                    ..self.clone()
+                }))
+            }
+
             fn drive(
                 &self,
                 x: &[PoseOf<$space>],
@@ -342,7 +353,7 @@ static PAIRS_18: [[usize; 2]; 324] = pairs(18);
 static PAIRS_24: [[usize; 2]; 576] = pairs(24);
 
 /// The pattern of a full block of `n` columns.
-const fn full(n: usize) -> &'static [[usize; 2]] {
+pub(crate) const fn full(n: usize) -> &'static [[usize; 2]] {
     match n {
         3 => &PAIRS_3,
         6 => &PAIRS_6,

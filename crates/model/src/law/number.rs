@@ -3,7 +3,9 @@
 
 use joints::{Real, Recorded};
 
-use super::{Function, Join};
+use crate::called::{Called, DriveState};
+
+use super::{Function, Join, Undefined};
 
 /// A number on which a law is evaluated.
 pub(crate) trait Number: Copy + From<f64> {
@@ -24,6 +26,9 @@ pub(crate) trait Smooth: Number + Real {
 
     /// The derivatives of a function of it and another number by both.
     fn slopes(self, j: Join, b: Self) -> [Self; 2];
+
+    /// The value of a called function, which takes doubles alone.
+    fn called(function: &Called<DriveState, f64>, inputs: [Self; 3]) -> Result<Self, Undefined>;
 }
 
 /// Functions and derivatives that a ring with roots has.
@@ -140,6 +145,10 @@ impl Smooth for f64 {
             j => arithmetic_slopes(self, j, b).unwrap_or([f64::NAN; 2]),
         }
     }
+
+    fn called(function: &Called<DriveState, f64>, inputs: [Self; 3]) -> Result<Self, Undefined> {
+        function.value(inputs)
+    }
 }
 
 /// Records arithmetic and roots; all else is NaN: generators of code refuse laws.
@@ -164,6 +173,10 @@ impl Smooth for Recorded {
 
     fn slopes(self, j: Join, b: Self) -> [Self; 2] {
         arithmetic_slopes(self, j, b).unwrap_or_else(|| [Self::from(f64::NAN); 2])
+    }
+
+    fn called(_: &Called<DriveState, f64>, _: [Self; 3]) -> Result<Self, Undefined> {
+        Err(Undefined::ValueAlone)
     }
 }
 

@@ -114,7 +114,10 @@ fn some_law() -> Law {
 }
 
 fn force<K: Constraint>(law: Law, arguments: &[Argument], start: &[Pose]) -> Box<dyn ForceKernels> {
-    let mut force = build_law::<K, joints::Plane>(arguments, law).expect("a row and two bodies");
+    let mut force = {
+        let drive = K::from_arguments(arguments).expect("its arguments");
+        law_drive::<K, joints::Plane>(drive, law).expect("a row and two bodies")
+    };
     force.initialise(start);
     force
 }
@@ -216,4 +219,72 @@ fn derivatives_of_the_force_agree_with_differences() {
             );
         }
     }
+}
+
+/// `−3·measure³ + rate·(2 − measure) + t`, called.
+fn some_function() -> Law {
+    Law::called(|at| {
+        let DriveState {
+            time,
+            measure,
+            rate,
+        } = *at;
+        Ok(-3.0 * measure.powi(3) + rate * (2.0 - measure) + time)
+    })
+}
+
+#[test]
+fn a_called_function_makes_the_force_of_the_same_text() {
+    let x = [Pose::new(-0.4, 0.9, 1.2), Pose::new(0.8, 0.1, 0.3)];
+    let twist = |x, y, omega| Twist { x, y, omega };
+    let v = [twist(0.3, -0.5, 0.7), twist(-0.2, 0.4, 1.1)];
+    for written in forces() {
+        let called = written.with_law(&some_function()).expect("a law");
+        assert!(called.is_law() && called.is_called() && !written.is_called());
+        let (mut found, mut expected) = ([0.0; 6], [0.0; 6]);
+        called.q(&x, &v, &TIME, &mut found);
+        written.q(&x, &v, &TIME, &mut expected);
+        for (found, expected) in found.into_iter().zip(expected) {
+            // Products are made in another order.
+            assert!((found - expected).abs() < 1e-14 * expected.abs().max(1.0));
+        }
+        let mut slopes = [0.0; 36];
+        called.dq_dx(&x, &v, &TIME, &mut slopes);
+        assert!(slopes.iter().all(|slope| slope.is_nan()));
+        called.dq_dv(&x, &v, &TIME, &mut slopes);
+        assert!(slopes.iter().all(|slope| slope.is_nan()));
+    }
+}
+
+#[test]
+fn what_a_function_does_not_give_is_named() {
+    let value = |law: &Law| law.value(0.5, 0.0, 1.0);
+    let no_number = value(&Law::called(|_| Ok(f64::NAN))).expect_err("not finite");
+    assert_eq!(no_number.to_string(), "its function returned NaN");
+    assert!(no_number.is_of_function());
+    let infinite = value(&Law::called(|at| Ok(1.0 / (at.measure - 0.5))));
+    assert_eq!(infinite, Err(Undefined::Returned("inf".to_owned())));
+    let failed = value(&Law::called(|_| Err("no sensor".into())));
+    assert_eq!(failed, Err(Undefined::Failed("no sensor".to_owned())));
+    let law = some_function();
+    assert_eq!(law.slopes(0.5, 0.0, 1.0), Err(Undefined::ValueAlone));
+    assert_eq!(law.value(f64::NAN, 0.0, 1.0), Err(Undefined::Input));
+    assert!(law == law.clone() && law != some_function());
+}
+
+/// The measure of a law since the start stays one, whatever the new law says.
+#[test]
+fn a_law_is_replaced_on_its_measure() {
+    let origin = Argument::Pair([0.0; 2]);
+    let arguments = [origin.clone(), origin, Argument::Absent];
+    let start = [Pose::GROUND, Pose::new(2.0, 0.0, 0.0)];
+    let written = some_law().since_start();
+    let called = force::<DistanceLengthDrive>(written, &arguments, &start)
+        .with_law(&some_function())
+        .expect("a law");
+    let x = [Pose::GROUND, Pose::new(3.0, 0.0, 0.0)];
+    let found = called.drive(&x, &[Twist::zero(); 2], &TIME);
+    let found = found.expect("a law");
+    // −3·1³ + 0.5
+    assert!((found.measure - 1.0).abs() < 1e-15 && found.force == Ok(-2.5));
 }

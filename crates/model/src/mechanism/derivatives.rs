@@ -4,7 +4,7 @@
 //! All are taken along velocity directions, so that every block has n_v columns: `∂/∂q` means the
 //! change with q as the mechanism moves with a velocity.
 
-use super::Mechanism;
+use super::{CalledForce, Mechanism};
 use crate::element::Rates;
 use crate::space::SpaceKind;
 use crate::system::Scratch;
@@ -96,9 +96,11 @@ impl Sparse {
 
 impl Derivatives {
     /// Allocates the derivatives of a mechanism; the values are zero.
-    #[must_use]
-    pub fn of(mechanism: &Mechanism) -> Self {
-        let [force_dq, force_dv] = force_patterns(mechanism);
+    ///
+    /// # Errors
+    /// A force or a law calls a function, of which values alone are known.
+    pub fn of(mechanism: &Mechanism) -> Result<Self, CalledForce> {
+        let [force_dq, force_dv] = force_patterns(mechanism)?;
         let mut d = Self {
             force_dq,
             force_dv,
@@ -118,7 +120,7 @@ impl Derivatives {
             d.gamma_dv.push_block(spec.d_gamma_dv, row, column);
             d.velocity_dq.push_block(spec.d_velocity_dx, row, column);
         }
-        d
+        Ok(d)
     }
 
     /// Computes the derivatives at the pose and the twist of the scratch, for accelerations `a`
@@ -136,13 +138,14 @@ impl Derivatives {
     ///     ..Description::default()
     /// };
     /// let mechanism = Mechanism::build(&pendulum).unwrap();
-    /// let (mut s, mut d) = (mechanism.scratch(), Derivatives::of(&mechanism));
+    /// let (mut s, mut d) = (mechanism.scratch(), Derivatives::of(&mechanism)?);
     /// mechanism.pose(0.0, &[0.0, -2.0, 0.0], &mut s);
     /// mechanism.twist(&[6.0, 0.0, 3.0], &mut s);
     /// d.differentiate(&mechanism, &[0.0; 3], &[0.0; 2], &s);
     /// let mut gamma = [0.0; 2];
     /// d.gamma_dv.add_product(&[0.0, 0.0, 1.0], &mut gamma);
     /// assert_eq!(gamma, [0.0, -12.0]);
+    /// # Ok::<(), model::CalledForce>(())
     /// ```
     ///
     /// # Panics
@@ -165,16 +168,23 @@ impl Derivatives {
     }
 
     /// `∂Q/∂q` and `∂Q/∂v` alone, at the pose and the twist of the scratch; allocates.
-    #[must_use]
-    pub fn of_forces(mechanism: &Mechanism, s: &Scratch) -> [Sparse; 2] {
-        let [mut by_q, mut by_v] = force_patterns(mechanism);
+    ///
+    /// # Errors
+    /// As [`Derivatives::of`].
+    pub fn of_forces(mechanism: &Mechanism, s: &Scratch) -> Result<[Sparse; 2], CalledForce> {
+        let [mut by_q, mut by_v] = force_patterns(mechanism)?;
         differentiate_forces(mechanism, s, [&mut by_q, &mut by_v]);
-        [by_q, by_v]
+        Ok([by_q, by_v])
     }
 }
 
-/// Space for `∂Q/∂q` and `∂Q/∂v`.
-fn force_patterns(mechanism: &Mechanism) -> [Sparse; 2] {
+/// Space for `∂Q/∂q` and `∂Q/∂v`, if all forces have them.
+fn force_patterns(mechanism: &Mechanism) -> Result<[Sparse; 2], CalledForce> {
+    mechanism
+        .applied_forces()
+        .called()
+        .next()
+        .map_or(Ok(()), Err)?;
     let mut patterns = [Sparse::default(), Sparse::default()];
     for f in &mechanism.elements.forces {
         let column = |k: usize| f.site.column(k);
@@ -186,7 +196,7 @@ fn force_patterns(mechanism: &Mechanism) -> [Sparse; 2] {
         let column = |k: usize| Some(first + k);
         patterns[1].push_block(&GYROSCOPIC, column, column);
     }
-    patterns
+    Ok(patterns)
 }
 
 /// Pattern of the derivative of `−ω × J·ω` by ω in principal axes.

@@ -6,7 +6,7 @@ use joints::spec::{ForceSpec, Unit};
 use super::Mechanism;
 use crate::body::BodyRef;
 use crate::element::PlacedForce;
-use crate::law::DriveForce;
+use crate::law::{DriveForce, Undefined};
 use crate::system::Scratch;
 
 /// The applied forces of a mechanism, without the weight.
@@ -24,6 +24,76 @@ pub struct AppliedForce<'m> {
     pub bodies: &'m [BodyRef],
     /// Points at which it acts, each in the frame of its body (m).
     pub points: Vec<(BodyRef, [f64; 3])>,
+}
+
+/// A force or a law that calls a function, of which values alone are known.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{kind} `{name}` calls a function, which has no derivatives", kind = self.kind())]
+#[non_exhaustive]
+pub struct CalledForce {
+    /// Its name.
+    pub name: String,
+    /// Whether it is a drive by a law.
+    pub is_drive: bool,
+}
+
+impl CalledForce {
+    /// "drive" or "force".
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        if self.is_drive { "drive" } else { "force" }
+    }
+}
+
+/// A force without a finite value at a state.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum UndefinedForce {
+    /// A force.
+    #[error("the force `{name}`")]
+    Force {
+        /// Its name.
+        name: String,
+    },
+    /// A force that calls a function.
+    #[error("the force `{name}` ({why})")]
+    Called {
+        /// Its name.
+        name: String,
+        /// Why.
+        why: Undefined,
+    },
+    /// A drive by a law.
+    #[error("the law of drive `{name}` ({why}, at measure = {measure:.6}, rate = {rate:.6})")]
+    Law {
+        /// The drive.
+        name: String,
+        /// Its measure (m or rad).
+        measure: f64,
+        /// The rate of it (m/s or rad/s).
+        rate: f64,
+        /// Why.
+        why: Undefined,
+    },
+}
+
+impl UndefinedForce {
+    /// The name of the force or drive.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Force { name } | Self::Called { name, .. } | Self::Law { name, .. } => name,
+        }
+    }
+
+    /// Whether a called function is the cause.
+    #[must_use]
+    pub fn is_of_function(&self) -> bool {
+        match self {
+            Self::Law { why, .. } | Self::Called { why, .. } => why.is_of_function(),
+            Self::Force { .. } => false,
+        }
+    }
 }
 
 /// What the change of a function of a force adds to Q.
@@ -77,8 +147,9 @@ impl<'m> AppliedForces<'m> {
     #[must_use]
     pub fn pushes(self, s: &mut Scratch) -> Vec<Push<'m>> {
         let mut all = Vec::new();
-        // A law takes a measure; its function of time is not used.
-        for force in self.0.iter().filter(|force| !force.is_law()) {
+        // Laws and called functions take the time; it is not used for them.
+        let of_time = |force: &&PlacedForce| !force.is_law() && !force.is_called();
+        for force in self.0.iter().filter(of_time) {
             let functions = force.spec().common.functions();
             for ((function, unit), at) in functions.zip(force.site.functions.clone()) {
                 let value = s.slots.jets[at][0];
@@ -104,26 +175,40 @@ impl<'m> AppliedForces<'m> {
         all
     }
 
-    /// The first force without a finite value at the pose and the twist of the scratch: "the force
-    /// `spring`", or a drive by a law with its numbers.
+    /// Those that call a function, of which values alone are known, in the order of the forces.
+    pub fn called(self) -> impl Iterator<Item = CalledForce> {
+        let called = self.0.iter().filter(|force| force.is_called());
+        called.map(|force| CalledForce {
+            name: force.name.clone(),
+            is_drive: force.is_law(),
+        })
+    }
+
+    /// The first force without a finite value at the pose and the twist of the scratch.
     #[must_use]
-    pub fn undefined(self, s: &mut Scratch) -> Option<String> {
+    pub fn undefined(self, s: &mut Scratch) -> Option<UndefinedForce> {
         self.0.iter().find_map(|force| {
             force.q(&s.slots, &mut s.block);
             let mut values = s.block[..force.columns.len()].iter();
             if values.all(|value| value.is_finite()) {
                 return None;
             }
-            let name = &force.name;
+            let name = force.name.clone();
             Some(match force.drive(&s.slots) {
                 Some(DriveForce {
                     measure,
                     rate,
                     force: Err(why),
-                }) => format!(
-                    "the law of drive `{name}` ({why}, at measure = {measure:.6}, rate = {rate:.6})"
-                ),
-                _ => format!("the force `{name}`"),
+                }) => UndefinedForce::Law {
+                    name,
+                    measure,
+                    rate,
+                    why,
+                },
+                _ => match force.undefined(&s.slots) {
+                    Some(why) => UndefinedForce::Called { name, why },
+                    None => UndefinedForce::Force { name },
+                },
             })
         })
     }

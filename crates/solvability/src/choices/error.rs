@@ -1,8 +1,8 @@
 //! Errors of choices among non-unique reactions.
 
 use linalg::SaddleError;
-use model::RowLabel;
 use model::codes::Code;
+use model::{CalledForce, RowLabel};
 use rank::{Doubt, KeptRowsError};
 
 use crate::groups::RequestError;
@@ -20,6 +20,9 @@ pub enum ChoiceError {
     /// The equations cannot be solved on the kept rows.
     #[error(transparent)]
     Saddle(#[from] SaddleError),
+    /// Derivatives of forces are needed, and one of them calls a function.
+    #[error(transparent)]
+    Called(#[from] CalledForce),
     /// Redundant rows require different accelerations: no reactions exist.
     #[error(
         "row {} requires an acceleration that differs by {by:.3e} from what the kept rows give (rounding: {allowed:.3e}): \
@@ -109,6 +112,7 @@ impl ChoiceError {
     pub fn code(&self) -> Code {
         match self {
             Self::Request(e) => e.code(),
+            Self::Called(_) => const { Code::new(427) },
             Self::Undecided { .. }
             | Self::Saddle { .. }
             | Self::Contradiction { .. }

@@ -121,7 +121,7 @@ impl<'a> Instant<'a> {
         for (&i, l) in kept.iter().zip(of_kept) {
             lambda[i] = l;
         }
-        let mut derivatives = Derivatives::of(mechanism);
+        let mut derivatives = Derivatives::of(mechanism)?;
         derivatives.differentiate(mechanism, &a, &lambda, &s);
         let feels_velocities = (derivatives.gamma_dv.iter())
             .chain(force_dv.iter().copied())

@@ -6,7 +6,7 @@
 
 use std::borrow::Cow;
 
-use model::{Mechanism, SpaceKind, System};
+use model::{CalledForce, Mechanism, SpaceKind, System};
 
 use crate::choices::Solution;
 use crate::parts::{Extent, Partition};
@@ -134,23 +134,24 @@ impl Sets {
 }
 
 /// Applies `f` to each set of bodies connected by joints and drives, at time t, coordinates q and
-/// velocities v, on the `rayon` thread pool of the caller.
+/// velocities v, on the `rayon` thread pool of the caller; to a force that calls a function in
+/// place of the set if there is one, because no derivative of it is known.
 pub(super) fn each_joined<T: Send>(
     mechanism: &Mechanism,
     (t, q, v): (f64, &[f64], &[f64]),
-    f: impl Fn(Joined<'_>) -> T + Sync,
+    f: impl Fn(Result<Joined<'_>, &CalledForce>, &Extent) -> T + Sync,
 ) -> Vec<T> {
     let sets = Sets::of(mechanism);
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);
     mechanism.twist(v, &mut s);
     mechanism.force(&mut s);
-    let [by_q, by_v] = model::Derivatives::of_forces(mechanism, &s);
-    let [by_q, by_v] = [by_q, by_v].map(|all| sets.entries(mechanism.space(), &all));
+    let by = model::Derivatives::of_forces(mechanism, &s);
+    let by = by.map(|by| by.map(|all| sets.entries(mechanism.space(), &all)));
     let found = sets.partition.map(mechanism, |part, extent| {
         let first = extent.groups().first();
         let set = first.and_then(|&k| sets.of_group[k]).unwrap_or(0);
-        Ok::<_, std::convert::Infallible>(f(Joined {
+        let joined = by.as_ref().map(|[by_q, by_v]| Joined {
             mechanism: part,
             q: extent.coordinates(q),
             v: extent.velocities(v),
@@ -158,7 +159,8 @@ pub(super) fn each_joined<T: Send>(
             force_dq: by_q[set][..].into(),
             force_dv: by_v[set][..].into(),
             extent: &extent,
-        }))
+        });
+        Ok::<_, std::convert::Infallible>(f(joined, &extent))
     });
     match found {
         Ok(found) => found,

@@ -374,3 +374,29 @@ fn in_space_moments_are_compared_with_forces_by_the_size() {
     let is_same = |c: &f64| (c / changes[0] - 1.0).abs() < 1e-9;
     assert!(changes.iter().all(is_same), "{changes:?}");
 }
+
+/// Of a force that calls a function no derivative is known: its sensitivities are left out with its
+/// name, and the verdicts stay.
+#[test]
+fn a_called_force_leaves_sensitivities_unknown() {
+    let mut d = Description::new("motor");
+    let wheel = d.body(Body::new("wheel", 1.0, 0.1));
+    let (bodies, o) = ([GROUND, wheel], [0.0, 0.0]);
+    d.joint("shaft", &bodies, Revolute { s_i: o, s_j: o });
+    let drive = RevoluteAngleDrive::new(o, o);
+    let law = model::Law::called(|at| Ok(20.0 - 0.5 * at.rate));
+    d.drive_by_law("motor", &bodies, drive, law).expect("a row");
+    let mechanism = Mechanism::build(&d).expect("it builds");
+    let (q, v) = ([0.0; 3], [0.0; 3]);
+    let analysis = crate::analyse(&mechanism, 0.0, &q).expect("finite");
+    assert!(analysis.reactions[0].wrench.verdict.is_unique());
+    let all = analysis.sensitivities(&mechanism, &q, &v).expect("fits");
+    assert_eq!(all.each, [None]);
+    let [why] = &all.left_out[..] else {
+        panic!("{:?}", all.left_out);
+    };
+    assert!(
+        why.ends_with("drive `motor` calls a function, which has no derivatives"),
+        "{why}"
+    );
+}

@@ -1,0 +1,91 @@
+//! A law as operations on a stack of numbers: on doubles, on dual numbers, or on numbers that
+//! record what is done with them.
+
+use super::number::{Number, Slope, Smooth};
+use super::{DEEPEST, LawError, Operation, Undefined};
+
+/// Operations that leave one number.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Program(Box<[Operation]>);
+
+impl Program {
+    /// Checks that the operations leave one number.
+    pub(super) fn new(operations: &[Operation]) -> Result<Self, LawError> {
+        let mut left: usize = 0;
+        for operation in operations {
+            let takes = match operation {
+                Operation::Apply(_) => 1,
+                Operation::Join(_) => 2,
+                _ => 0,
+            };
+            let rest = left.checked_sub(takes);
+            left = rest.ok_or(LawError::Incomplete { left })? + 1;
+            if left > DEEPEST {
+                return Err(LawError::Deep);
+            }
+        }
+        match left {
+            1 => Ok(Self(operations.into())),
+            left => Err(LawError::Incomplete { left }),
+        }
+    }
+
+    /// The value with its derivatives; one that has no finite value is 0.
+    pub(super) fn slope<T: Smooth>(
+        &self,
+        [measure, rate, t]: [T; 3],
+    ) -> Result<Slope<T>, Undefined> {
+        let [zero, one] = [T::from(0.0), T::from(1.0)];
+        let with = |value, by| Slope { value, by };
+        let Slope { value, by } = self.evaluate([
+            with(measure, [one, zero]),
+            with(rate, [zero, one]),
+            with(t, [zero, zero]),
+        ])?;
+        let finite = |x: T| match x.number() {
+            Some(x) if !x.is_finite() => zero,
+            _ => x,
+        };
+        Ok(with(value, by.map(finite)))
+    }
+
+    /// The value of the program for measure, rate and time. Every result on the way has to be
+    /// finite.
+    pub(super) fn evaluate<T: Number>(&self, inputs: [T; 3]) -> Result<T, Undefined> {
+        let mut stack = [inputs[0]; DEEPEST];
+        let mut top = 0;
+        let is_finite = |x: T| x.number().is_none_or(f64::is_finite);
+        if !inputs.into_iter().all(is_finite) {
+            return Err(Undefined::Input);
+        }
+        for &operation in &self.0 {
+            let taken = match operation {
+                Operation::Apply(_) => 1,
+                Operation::Join(_) => 2,
+                _ => 0,
+            };
+            // The number of values was checked when the law was made.
+            top -= taken;
+            let (a, b) = (stack[top], stack[(top + 1).min(DEEPEST - 1)]);
+            let result = match operation {
+                Operation::Number(x) => T::from(x),
+                Operation::Measure => inputs[0],
+                Operation::Rate => inputs[1],
+                Operation::Time => inputs[2],
+                Operation::Apply(f) => a.apply(f),
+                Operation::Join(j) => a.join(j, b),
+            };
+            if !is_finite(result) {
+                let number = |x: T| x.number().unwrap_or_default();
+                return Err(match operation {
+                    Operation::Apply(f) => Undefined::Apply(f, number(a)),
+                    Operation::Join(j) => Undefined::Join(j, number(a), number(b)),
+                    _ => Undefined::Input,
+                });
+            }
+            stack[top] = result;
+            top += 1;
+        }
+        Ok(stack[0])
+    }
+}
