@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 ROBOT = ROOT / "crates" / "robot-trolley" / "robot-trolley.toml"
@@ -69,6 +70,58 @@ print(time.perf_counter() - wall, time.process_time() - own)
     return min(wall for wall, _ in pairs), min(own for _, own in pairs)
 
 
+WHEEL = """
+scene = { name = "wheel", space = "plane" }
+body = [{ name = "wheel", mass = 1.0, inertia = 0.4 }]
+joint = [{ name = "shaft", type = "revolute", bodies = ["ground", "wheel"], at = [0.0, 0.0] }]
+drive = [{ name = "motor", joint = "shaft", type = "angle", torque = "20 - 0.5*rate" }]
+"""
+T_END = 300.0
+
+
+def of_functions() -> None:
+    """What a call of a function adds to a run."""
+    import pfaff
+
+    scene = pfaff.Scene.from_string(WHEEL)
+    calls = 0
+
+    def motor(t: float, angle: float, rate: float) -> float:
+        nonlocal calls
+        calls += 1
+        return 20.0 - 0.5 * rate
+
+    def idle(t: float, body: pfaff.BodyState) -> tuple[float, float, float]:
+        nonlocal calls
+        calls += 1
+        return (0.0, 0.0, 0.0 * body.angular_velocity)
+
+    def run(**functions: Any) -> tuple[float, int, int]:
+        """Processor time, calls and evaluations of a run."""
+        nonlocal calls
+        calls, evaluations = 0, 0
+
+        def go() -> None:
+            nonlocal evaluations
+            made = scene.simulate(
+                T_END, rtol=1e-9, max_step=0.05, max_steps=10**6, output_step=T_END, method="dop853",
+                reactions=False, **functions,
+            )  # fmt: skip
+            evaluations = made.document["evaluations"]
+
+        spent = least(go, 5)
+        return spent, calls // 5, evaluations
+
+    text, _, evaluations = run()
+    told("an evaluation of a wheel with a law as a text", 1e6 * text / evaluations, "us")
+    for what, functions in (
+        ("a call of a function of a drive", {"drives": {"motor": motor}}),
+        ("a call of a function of a body", {"forces": {"wheel": idle}}),
+    ):
+        spent, made, _ = run(**functions)
+        told(f"{what} adds ({made} calls in {spent:.2f} s)", 1e6 * (spent - text) / made, "us")
+
+
 def main() -> None:
     """All measurements."""
     parser = argparse.ArgumentParser()
@@ -90,6 +143,7 @@ def main() -> None:
 
     import pfaff
 
+    of_functions()
     text = ROBOT.read_text(encoding="utf-8")
     scene = pfaff.Scene.from_string(text)
 

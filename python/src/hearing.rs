@@ -97,7 +97,14 @@ impl Hearing {
         }
     }
 
-    fn end(&self, raised: Option<PyErr>) {
+    /// Whether an exception has ended the run.
+    pub(crate) fn has_raised(&self) -> bool {
+        let raised = self.raised.lock().unwrap_or_else(PoisonError::into_inner);
+        raised.is_some()
+    }
+
+    /// Ends the run; the first exception is kept.
+    pub(crate) fn end(&self, raised: Option<PyErr>) {
         let mut first = self.raised.lock().unwrap_or_else(PoisonError::into_inner);
         if first.is_none() {
             *first = raised;
@@ -106,9 +113,8 @@ impl Hearing {
     }
 
     /// The exception that ended the run.
-    pub(crate) fn raised(self) -> Option<PyErr> {
-        self.raised
-            .into_inner()
-            .unwrap_or_else(PoisonError::into_inner)
+    pub(crate) fn raised(&self) -> Option<PyErr> {
+        let mut raised = self.raised.lock().unwrap_or_else(PoisonError::into_inner);
+        raised.take()
     }
 }

@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | `fault` | errors and panics become exceptions |
 //! | `hearing` | Ctrl-C and callbacks during a run |
+//! | `functions` | functions of Python as laws of drives and as forces on bodies |
 //! | `scene` | a text of a scene, and what is computed of it |
 //! | `options` | words and numbers from Python as options of the library |
 //! | `analysis` | one configuration with its verdicts |
@@ -17,6 +18,7 @@
 mod analysis;
 mod comparison;
 mod fault;
+mod functions;
 mod hearing;
 mod options;
 mod run;

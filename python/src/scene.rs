@@ -21,6 +21,7 @@ use pyo3::prelude::*;
 
 use crate::analysis::{Analysis, plain};
 use crate::fault::{Fault, guarded, wrong};
+use crate::functions::Functions;
 use crate::hearing::{Hearing, heard};
 use crate::options::{RunOptions, rows_from_zero, tolerance, unknown};
 use crate::run::{Column, Recorded, Run, by_rows};
@@ -144,16 +145,39 @@ impl Scene {
         Ok(judged)
     }
 
+    /// The scene with functions of Python in it, for one run.
+    fn with_functions(
+        &self,
+        functions: Functions,
+        (tolerance, overrides): (Tolerance, &Overrides),
+        hearing: &Arc<Hearing>,
+    ) -> Result<Study, Fault> {
+        let mut assembled = self.assembled(tolerance)?;
+        if !functions.is_empty() {
+            let mut scene = assembled.scene;
+            functions.put_into(&mut scene.description, hearing)?;
+            assembled = AssembledScene::build(scene).map_err(|e| self.fault(e))?;
+        }
+        assembled.prepare(overrides).map_err(|e| self.fault(e))
+    }
+
     fn recorded(
         &self,
-        options: &RunOptions,
+        (options, functions): (&RunOptions, Functions),
         numbers_of_choice: bool,
-        hearing: &Hearing,
+        hearing: &Arc<Hearing>,
         [on_event, on_row]: [Option<&Py<PyAny>>; 2],
     ) -> Result<Recorded, Fault> {
         let overrides = options.overrides()?;
-        let judged = self.judged(options.tolerance(), overrides.drop.clone())?;
-        let study = judged.study()?;
+        let (judged, own);
+        let study = if functions.is_empty() {
+            judged = self.judged(options.tolerance(), overrides.drop.clone())?;
+            judged.study()?
+        } else {
+            let of_scene = (options.tolerance(), &overrides);
+            own = self.with_functions(functions, of_scene, hearing)?;
+            &own
+        };
         options.check_names(&study.analyse(0.0, None).map_err(|e| self.fault(e))?)?;
         let motion = study.options_with(&overrides);
         let mut motion = motion.ok_or_else(|| self.fault(StudyError::NoEnd))?;
@@ -400,8 +424,10 @@ impl Scene {
     }
 
     /// Runs the scene. With `numbers_of_choice` reactions that are not unique have the numbers of
-    /// the rows that the run keeps, otherwise NaN.
-    #[pyo3(signature = (options, numbers_of_choice, on_event, on_row))]
+    /// the rows that the run keeps, otherwise NaN. `drives` are functions of time, measure and rate
+    /// in place of laws, `forces` functions of the states of bodies, each with its name.
+    #[pyo3(signature = (options, numbers_of_choice, on_event, on_row, drives, forces))]
+    #[allow(clippy::too_many_arguments)]
     fn simulate(
         &self,
         py: Python<'_>,
@@ -409,11 +435,14 @@ impl Scene {
         numbers_of_choice: bool,
         on_event: Option<Py<PyAny>>,
         on_row: Option<Py<PyAny>>,
+        drives: Vec<(String, Py<PyAny>)>,
+        forces: Vec<(String, Py<PyAny>)>,
     ) -> PyResult<Run> {
         let recorded = guarded(py, || {
-            let hearing = Hearing::new();
+            let hearing = Arc::new(Hearing::new());
             let callbacks = [on_event.as_ref(), on_row.as_ref()];
-            let recorded = self.recorded(&options, numbers_of_choice, &hearing, callbacks);
+            let asked = (&options, Functions { drives, forces });
+            let recorded = self.recorded(asked, numbers_of_choice, &hearing, callbacks);
             match hearing.raised() {
                 Some(raised) => Err(raised.into()),
                 None => recorded,
@@ -424,19 +453,23 @@ impl Scene {
 
     /// Runs the scene and writes the files of the command into a directory; returns the summary.
     /// With `until` the run ends at the row of this time (s), as one that was asked to end there.
-    #[pyo3(signature = (directory, options, until))]
+    #[pyo3(signature = (directory, options, until, drives, forces))]
+    #[allow(clippy::too_many_arguments)]
     fn simulate_into(
         &self,
         py: Python<'_>,
         directory: PathBuf,
         options: RunOptions,
         until: Option<f64>,
+        drives: Vec<(String, Py<PyAny>)>,
+        forces: Vec<(String, Py<PyAny>)>,
     ) -> PyResult<String> {
         guarded(py, || {
-            let hearing = Hearing::new();
+            let hearing = Arc::new(Hearing::new());
             let overrides = options.overrides()?;
-            let study = self.assembled(options.tolerance())?.prepare(&overrides);
-            let mut study = study.map_err(|e| self.fault(e))?;
+            let of_scene = (options.tolerance(), &overrides);
+            let functions = Functions { drives, forces };
+            let mut study = self.with_functions(functions, of_scene, &hearing)?;
             if let (Some(step), Some(motion)) = (options.output_step, &mut study.options) {
                 motion.output_step = step;
             }

@@ -18,6 +18,7 @@ from . import cluster
 from ._analysis import Analysis, ComponentVerdict, GroupVerdict, Verdict
 from ._comparison import Curve, WorkPrecision
 from ._errors import ComputationError, Error, InputError, InternalError, Place, SceneError
+from ._functions import BodyState
 from ._linearisation import Linearisation
 from ._pfaff import __version__
 from ._run import BodyMotion, Event, Reaction, Run
@@ -28,6 +29,7 @@ from .cluster import SweepResult
 __all__ = [
     "Analysis",
     "BodyMotion",
+    "BodyState",
     "ComponentVerdict",
     "ComputationError",
     "Curve",

@@ -132,12 +132,13 @@ class Scene:
         The name that the scene gives itself, the names of its bodies, and of its joints and drives
         in the order of the rows.
         """
-    def simulate(self, /, options: Incomplete, numbers_of_choice: bool, on_event: Any | None, on_row: Any | None) -> Run:
+    def simulate(self, /, options: Incomplete, numbers_of_choice: bool, on_event: Any | None, on_row: Any | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> Run:
         """
         Runs the scene. With `numbers_of_choice` reactions that are not unique have the numbers of
-        the rows that the run keeps, otherwise NaN.
+        the rows that the run keeps, otherwise NaN. `drives` are functions of time, measure and rate
+        in place of laws, `forces` functions of the states of bodies, each with its name.
         """
-    def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete, until: SupportsFloat | SupportsIndex | None) -> str:
+    def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete, until: SupportsFloat | SupportsIndex | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> str:
         """
         Runs the scene and writes the files of the command into a directory; returns the summary.
         With `until` the run ends at the row of this time (s), as one that was asked to end there.

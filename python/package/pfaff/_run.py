@@ -201,7 +201,8 @@ class Run:
         """Writes the page of this run for any browser.
 
         The run is made again for it, with rows between these for a moving picture: to the same
-        end, also if it has stopped or a callback has ended it.
+        end, also if it has stopped or a callback has ended it. The functions of its drives and
+        bodies are called again.
         """
         stopped = self.document["error"] is not None
         until = float(self.t[-1]) if self.partial and not stopped else None

@@ -15,6 +15,7 @@ from . import _toml as toml
 from ._analysis import Analysis
 from ._comparison import WorkPrecision
 from ._errors import wrong
+from ._functions import BodyForce, DriveLaw, of_bodies, of_drives
 from ._linearisation import Linearisation
 from ._run import Event, Run
 from .cluster import SweepResult, Vary, sweep
@@ -268,6 +269,8 @@ class Scene:
         angle_tolerance: float | None = None,
         reactions: bool | Iterable[str] = True,
         choose: Choice | None = None,
+        drives: Mapping[str, DriveLaw] | None = None,
+        forces: Mapping[str, BodyForce] | None = None,
         on_event: Callable[[Event], object] | None = None,
         on_row: Callable[[float], object] | None = None,
     ) -> Run:
@@ -278,6 +281,12 @@ class Scene:
         run keeps, or a list of rows to drop, from 1. ``on_event`` gets each :class:`Event` at the
         first row after it, ``on_row`` the time of each row; the run ends where one of them returns
         ``True``. Ctrl-C is heard on the main thread.
+
+        ``drives`` are functions ``f(t, measure, rate)`` in place of the laws of these drives: they
+        return the force (N) or torque (N·m). ``forces`` are functions ``f(t, body)`` of a
+        :class:`BodyState`: they return force and torque on this body. Functions are called at
+        stages of steps, not in the order of time, and have to return the same for the same state;
+        methods that need derivatives refuse them. An exception of one ends the run and is raised.
         """
         options = _options(
             t_end=t_end,
@@ -294,8 +303,10 @@ class Scene:
             reactions=_wanted(reactions),
         )
         told = None if on_event is None else lambda text: on_event(Event(**json.loads(text)))
-        of = self._of.simulate(options, choose is not None, told, on_row)
-        run = Run(of, self, {key: x for key, x in options.items() if key != "reactions"})
+        laws, pushes = of_drives(drives), of_bodies(forces)
+        of = self._of.simulate(options, choose is not None, told, on_row, laws, pushes)
+        again = {key: x for key, x in options.items() if key != "reactions"}
+        run = Run(of, self, {**again, "drives": drives, "forces": forces})
         stopped = of.stopped()
         if stopped is not None:
             stopped.run = run
@@ -305,7 +316,8 @@ class Scene:
     def simulate_into(self, directory: str | os.PathLike[str], **options: Any) -> dict[str, Any]:
         """Runs the scene and writes the files of ``pfaff simulate`` into a directory.
 
-        Returns the summary. The options are those of :meth:`simulate` that are not callbacks.
+        Returns the summary. The options are those of :meth:`simulate` but ``on_event`` and
+        ``on_row``.
         """
         if "choose" in options:
             options["drop"] = _drop(options.pop("choose"))
@@ -315,7 +327,10 @@ class Scene:
     def _into(
         self, directory: str | os.PathLike[str], options: Mapping[str, Any], until: float | None
     ) -> dict[str, Any]:
-        summary = self._of.simulate_into(os.fspath(directory), _options(**options), until)
+        own = dict(options)
+        laws, pushes = of_drives(own.pop("drives", None)), of_bodies(own.pop("forces", None))
+        place = os.fspath(directory)
+        summary = self._of.simulate_into(place, _options(**own), until, laws, pushes)
         document: dict[str, Any] = json.loads(summary)
         return document
 
@@ -443,9 +458,10 @@ def _options(**options: Any) -> dict[str, Any]:
 
 def _known(options: Mapping[str, Any]) -> None:
     """An unknown option is refused as an unknown keyword."""
+    known = [*_NONE, "drives", "forces"]
     for name in options:
-        if name not in _NONE:
-            near = _pfaff.nearest(name, list(_NONE))
+        if name not in known:
+            near = _pfaff.nearest(name, known)
             advice = f"; did you mean `{near}`?" if near else ""
             raise TypeError(f"there is no option `{name}`{advice}")
 

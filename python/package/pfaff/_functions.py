@@ -1,0 +1,66 @@
+"""Functions of the caller as laws of drives and as forces on bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._errors import wrong
+
+Array = NDArray[np.float64]
+DriveLaw = Callable[[float, float, float], float]
+"""The force (N) or torque (N·m) of a drive, of time (s), measure (m or rad) and its rate."""
+
+
+class BodyState(NamedTuple):
+    """The state of a body: of its centre of mass, in ground axes."""
+
+    position: Array
+    """Place of the centre of mass (m), 2 or 3 numbers."""
+    rotation: Array
+    """From the frame of the body to ground axes, 2 × 2 or 3 × 3."""
+    angle: float
+    """Angle in the plane (rad), not reduced to one revolution; NaN in space."""
+    velocity: Array
+    """Velocity of the centre of mass (m/s), 2 or 3 numbers."""
+    angular_velocity: Any
+    """Angular velocity (rad/s): a number in the plane, 3 numbers in space."""
+
+
+BodyForce = Callable[[float, BodyState], ArrayLike]
+"""Force (N) and torque (N·m) on a body, of time (s) and its state.
+
+In the plane ``[fx, fy, torque]``, in space ``[fx, fy, fz, tx, ty, tz]``: in ground axes, the force
+through the centre of mass.
+"""
+
+Named = list[tuple[str, Callable[..., Any]]]
+
+
+def of_drives(drives: Mapping[str, DriveLaw] | None) -> Named:
+    """Names and functions."""
+    return _checked("drives", drives, "t, measure and rate")
+
+
+def of_bodies(forces: Mapping[str, BodyForce] | None) -> Named:
+    """Names and functions of plain numbers and arrays."""
+    return [(body, _of_state(f)) for body, f in _checked("forces", forces, "t and the body")]
+
+
+def _checked(option: str, functions: Mapping[str, Any] | None, needs: str) -> Named:
+    named = list((functions or {}).items())
+    for name, function in named:
+        if not callable(function):
+            kind = type(function).__name__
+            raise wrong(f"{option}[{name!r}] is `{kind}`, need a function of {needs}")
+    return named
+
+
+def _of_state(function: BodyForce) -> Callable[..., ArrayLike]:
+    def called(t: float, *state: Any) -> ArrayLike:
+        return function(t, BodyState(*state))
+
+    return called
