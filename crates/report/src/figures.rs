@@ -10,6 +10,8 @@
 //! | [`ranges()`], [`cloud()`] | numbers and places over samples |
 //! | [`extremes()`] | error over an extreme number, panel by panel |
 //!
+//! [`png()`] makes a PNG file of any of them (feature `png`).
+//!
 //! The selection of quantities, and the pages around figures, are in other modules.
 
 mod axis;
@@ -24,6 +26,7 @@ mod mechanism;
 mod outline;
 mod paths;
 mod plot;
+mod png;
 mod projection;
 mod style;
 mod svg;
@@ -36,6 +39,8 @@ pub use history::{Panel, Series, histories, history};
 pub(crate) use mechanism::LOOKS;
 pub use mechanism::{Labels, Marking, labelled_mechanism, mechanism};
 pub use paths::{Path, PathRecorder, paths};
+pub(crate) use png::SOFTWARE;
+pub use png::{Png, PngError, check_png, png};
 pub use style::{Pattern, Style};
 pub(crate) use svg::GENERATOR;
 pub(crate) use svg::escape;

@@ -6,7 +6,7 @@
 //! | --- | --- |
 //! | [`tables`] | `trajectory.csv` and `reactions.csv`, row by row |
 //! | [`documents`] | `analyze --json`, `plan --json` and `summary.json` |
-//! | [`figures`] | the mechanism with its verdicts, histories, paths in the plane: SVG |
+//! | [`figures`] | the mechanism with its verdicts, histories, paths in the plane: SVG, PNG |
 //! | [`mod@work_precision`] | error against run time: table, figure, page |
 //! | [`mod@tolerance`] | data within their tolerances: page |
 //! | [`mod@sweep`] | many runs: shards and journals that survive interruptions, CSV and Parquet |
@@ -27,7 +27,7 @@ pub mod tolerance;
 pub mod work_precision;
 
 pub use documents::{AnalysisDocument, Ending, PlanDocument, Run, RunDocument, write_json};
-pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Series, Style};
+pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Png, PngError, Series, Style};
 pub use files::{FileError, OutputDirectory, OutputFile, PROVENANCE, is_ours, replace_file};
 pub use html::{
     ComparedChoice, Comparison, DriveCurve, Freedom, Origin, RunPage, Shows, WrittenScene,

@@ -40,8 +40,18 @@ pub fn is_ours(path: &Path) -> bool {
         Some("svg") => text.contains(crate::figures::GENERATOR),
         Some("toml") => text.starts_with(PROVENANCE),
         Some("parquet") => text.starts_with("PAR1"),
+        Some("png") => is_picture(&head),
         _ => false,
     }
+}
+
+/// Whether this is the beginning of a PNG file with this program as its `Software`.
+fn is_picture(head: &[u8]) -> bool {
+    let named = ["tEXtSoftware\0", crate::figures::SOFTWARE].concat();
+    // The name of a chunk is not part of its length.
+    let length = (named.len() - 4) as u32;
+    let chunk = [&length.to_be_bytes(), named.as_bytes()].concat();
+    head.starts_with(b"\x89PNG\r\n\x1a\n") && head.windows(chunk.len()).any(|part| part == chunk)
 }
 
 /// Whether this is the header of one of our tables: quantities of bodies, joints and drives over
