@@ -1,5 +1,5 @@
-//! `THIRD-PARTY.md`: the crates of others that the command `pfaff` links, with their licences and
-//! the texts of these, and the same of the package for Python. Written from `cargo tree`, which
+//! `THIRD-PARTY.md`: the crates of others that the command `pfaff` links, and its fonts, with their
+//! licences and the texts of these, and the same of the package for Python. Written from `cargo tree`, which
 //! resolves features as a build does, and from the sources of the crates.
 //!
 //! cargo-about and cargo-deny do more, but they have to be installed first; this needs what builds
@@ -28,6 +28,8 @@ struct Product {
     package: &'static str,
     /// What it is called.
     name: &'static str,
+    /// What others have made besides crates, each with the file of its licence.
+    others: &'static [(&'static str, &'static str)],
 }
 
 const PRODUCTS: [Product; 2] = [
@@ -36,12 +38,17 @@ const PRODUCTS: [Product; 2] = [
         workspace: "",
         package: "pfaff-cli",
         name: "command `pfaff`",
+        others: &[(
+            "the fonts DejaVu Sans Condensed",
+            "crates/report/fonts/LICENSE.txt",
+        )],
     },
     Product {
         file: "python/THIRD-PARTY.md",
         workspace: "python",
         package: "pfaff-python",
         name: "Python package `pfaff`",
+        others: &[],
     },
 ];
 
@@ -117,10 +124,15 @@ impl Product {
         let file = self.file;
         let text =
             fs::read_to_string(root().join(file)).map_err(|e| format!("{file}: {e}; {WRITE}"))?;
+        let (mut faults, mut said) = (Vec::new(), Vec::new());
+        for (name, licence) in self.others {
+            if !text.contains(&other(name, licence)?) {
+                faults.push(format!("{name}: the licence is not that of {licence}"));
+            }
+        }
         let lock = fs::read_to_string(self.folder().join("Cargo.lock"))
             .map_err(|e| format!("Cargo.lock: {e}"))?;
         let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| ")).collect();
-        let (mut faults, mut said) = (Vec::new(), Vec::new());
         let mut now: BTreeMap<&str, Result<BTreeSet<String>, ()>> = BTreeMap::new();
         for (target, system) in PLATFORMS {
             let of = |edges| self.packages(target, edges, Network::None);
@@ -248,8 +260,20 @@ impl Product {
                 crates.join("; ")
             ));
         }
+        for (name, licence) in self.others {
+            out.push_str(&other(name, licence)?);
+        }
         Ok(out)
     }
+}
+
+/// The licence of something that is no crate, as it stands in the file.
+fn other(name: &str, licence: &str) -> Result<String, String> {
+    let text = fs::read_to_string(root().join(licence)).map_err(|e| format!("{licence}: {e}"))?;
+    Ok(format!(
+        "\n### {name}\n\n````text\n{}\n````\n",
+        text.trim_end()
+    ))
 }
 
 impl Package {

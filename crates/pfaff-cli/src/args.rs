@@ -354,6 +354,9 @@ pub(crate) struct WorkPrecision {
     /// Every method with every stabilisation
     #[arg(long)]
     pub(crate) all: bool,
+    /// Also write the figure as PNG
+    #[arg(long)]
+    pub(crate) png: bool,
     #[command(flatten)]
     pub(crate) settings: Settings,
     /// All results as one JSON document on standard output
@@ -503,10 +506,17 @@ pub(crate) struct Import {
 pub(crate) struct View {
     /// Scene file, or - for standard input
     pub(crate) scene: PathBuf,
-    /// File to write: a page (.html) or only its picture (.svg); by default a page with the name of
-    /// the scene file, in this directory
+    /// File to write: a page (.html) or only its picture (.svg, .png); by default a page with the
+    /// name of the scene file, in this directory
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
+    /// Write the picture as PNG, with the name of the scene file, in this directory
+    #[arg(long, conflicts_with = "out")]
+    pub(crate) png: bool,
+    /// Pixels of a PNG for each px of the picture, which is 960 px wide, from 0.1 to 20; by default
+    /// 2
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) scale: Option<f64>,
     /// Also replace a file that pfaff has not written
     #[arg(long)]
     pub(crate) force: bool,

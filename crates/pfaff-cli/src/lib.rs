@@ -14,6 +14,7 @@ mod linearise;
 mod manual;
 mod new;
 pub mod output;
+mod picture;
 mod plan;
 mod resources;
 mod simulate;

@@ -1,5 +1,5 @@
-//! `pfaff view`: writes a page of the assembled start, or its picture as SVG, and opens it in the
-//! system's viewer.
+//! `pfaff view`: writes a page of the assembled start, or its picture as SVG or PNG, and opens it in
+//! the system's viewer.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 
 use pfaff::model::System;
 use pfaff::report::documents::ViewDocument;
-use pfaff::report::figures::{Labels, Marking, labelled_mechanism};
+use pfaff::report::figures::{Labels, Marking, labelled_mechanism, png};
 use pfaff::report::{FileError, Frame, Recording, RunPage, Shows, is_ours, replace_file, run_page};
 
 use crate::args::View;
@@ -15,6 +15,7 @@ use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, count, unwritten};
+use crate::picture::{can_paint, missing, unpainted};
 use crate::simulate::origin;
 use crate::start::Start;
 
@@ -22,26 +23,26 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
     let source =
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
-    let path = place(arguments)?;
+    let (path, form) = place(arguments)?;
+    if form == Form::Png {
+        can_paint(arguments.scale)?;
+    }
     if !arguments.force && !is_ours(&path) {
         return Err(unwritten(&FileError::Foreign { paths: vec![path] }));
     }
     arguments.resources.apply();
     let start = Start::of(&source, arguments.resources)?;
-    let picture = if is_svg(&path) {
-        let marking = Marking::Verdicts(&start.reactions);
-        labelled_mechanism(
-            &start.mechanism,
-            0.0,
-            &start.q,
-            marking,
-            Labels::NamesAndRows,
-        )
-        .map_err(|e| Failure::stopped(e.to_string()))?
-    } else {
-        page(&start)
+    let (mut pixels, mut boxes) = (None, String::new());
+    let content = match form {
+        Form::Page => page(&start).into_bytes(),
+        Form::Svg => figure(&start)?.into_bytes(),
+        Form::Png => {
+            let painted = png(&figure(&start)?, arguments.scale).map_err(|e| unpainted(&e))?;
+            (pixels, boxes) = (Some(painted.pixels), painted.boxes);
+            painted.bytes
+        }
     };
-    replace_file(&path, picture.as_bytes()).map_err(|e| unwritten(&e))?;
+    replace_file(&path, &content).map_err(|e| unwritten(&e))?;
     let open = start
         .document
         .reactions
@@ -54,7 +55,9 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
             ok: true,
             scene: start.scene.name(),
             file: path.display().to_string(),
-            bytes: picture.len(),
+            bytes: content.len(),
+            pixels,
+            boxes: &boxes,
             reactions: start.reactions.len(),
             not_unique: open,
             fragile,
@@ -72,8 +75,9 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
         0 => String::new(),
         n => format!(", {n} unique but FRAGILE"),
     };
+    let boxes = missing(&boxes);
     console.print(&format!(
-        "{}: {}, {open} not unique{fragile}; {}\nwritten to {}\n{opened}",
+        "{}: {}, {open} not unique{fragile}; {}\nwritten to {}\n{boxes}{opened}",
         start.scene.name(),
         count(start.reactions.len(), "joint or drive", "joints and drives"),
         start
@@ -83,6 +87,14 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
             .summary(start.document.ranks.mobility),
         path.display()
     ))
+}
+
+/// The picture of the start as SVG.
+fn figure(start: &Start) -> Result<String, Failure> {
+    let marking = Marking::Verdicts(&start.reactions);
+    let labels = Labels::NamesAndRows;
+    labelled_mechanism(&start.mechanism, 0.0, &start.q, marking, labels)
+        .map_err(|e| Failure::stopped(e.to_string()))
 }
 
 /// The page of a run that consists of the start only.
@@ -106,32 +118,54 @@ fn page(start: &Start) -> String {
     })
 }
 
-fn is_svg(path: &Path) -> bool {
-    let end = path.extension();
-    end.is_some_and(|end| end.eq_ignore_ascii_case("svg"))
+/// What is written.
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    Page,
+    Svg,
+    Png,
 }
 
-/// The path of the file for the picture.
-fn place(arguments: &View) -> Result<PathBuf, Failure> {
+impl Form {
+    const ALL: [(&str, Self); 3] = [("html", Self::Page), ("svg", Self::Svg), ("png", Self::Png)];
+
+    /// The form that the end of a name asks for.
+    fn of(path: &Path) -> Option<Self> {
+        let end = path.extension()?;
+        let mut forms = Self::ALL.into_iter();
+        forms.find_map(|(name, form)| end.eq_ignore_ascii_case(name).then_some(form))
+    }
+}
+
+/// The path of the file, and what it is.
+fn place(arguments: &View) -> Result<(PathBuf, Form), Failure> {
     let scene = &arguments.scene;
-    let Some(path) = &arguments.out else {
-        let stem = scene.file_stem().filter(|_| scene.as_os_str() != "-");
-        return Ok(Path::new(stem.unwrap_or("scene".as_ref())).with_extension("html"));
+    let (path, form) = match &arguments.out {
+        None => {
+            let stem = scene.file_stem().filter(|_| scene.as_os_str() != "-");
+            let stem = Path::new(stem.unwrap_or("scene".as_ref()));
+            let (end, form) = Form::ALL[if arguments.png { 2 } else { 0 }];
+            (stem.with_extension(end), form)
+        }
+        Some(path) => {
+            let refused = |what: &str| {
+                let path = path.display();
+                Failure::input(format!("--out is `{path}`, {what}"))
+            };
+            if path.is_dir() {
+                return Err(refused("a directory, need a file"));
+            }
+            let form = Form::of(path);
+            let form =
+                form.ok_or_else(|| refused("need a name that ends with .html, .svg or .png"))?;
+            (path.clone(), form)
+        }
     };
-    let refused = |what: &str| {
-        Err(Failure::input(format!(
-            "--out is `{}`, {what}",
-            path.display()
-        )))
-    };
-    if path.is_dir() {
-        return refused("a directory, need a file");
+    if arguments.scale.is_some() && form != Form::Png {
+        let message = "--scale is for PNG: take --png, or a name that ends with .png for --out";
+        return Err(Failure::input(message.to_owned()));
     }
-    match path.extension() {
-        Some(end) if end.eq_ignore_ascii_case("html") => Ok(path.clone()),
-        _ if is_svg(path) => Ok(path.clone()),
-        _ => refused("need a name that ends with .html or .svg"),
-    }
+    Ok((path, form))
 }
 
 /// Opens a file with the system's program for such files, without waiting for it.

@@ -16,6 +16,7 @@ use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, directory, json, unwritten, wrapped};
+use crate::picture::{can_paint, unpainted};
 use crate::resources::Resources;
 
 pub(crate) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
@@ -31,6 +32,7 @@ pub(crate) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
         plan: plan(arguments.quick, arguments.all),
         out: &arguments.place.out,
         force: arguments.place.force,
+        png: arguments.png,
         json: arguments.json,
     }
     .run(console)
@@ -61,8 +63,9 @@ fn read(path: &Path, settings: &Settings, console: &Console<'_>) -> Result<Subje
     Subject::of_study(study).map_err(|e| source.failure(e))
 }
 
-/// The files of a comparison.
+/// The files of a comparison, and the one that is written if it is requested.
 const FILES: [&str; 3] = ["work_precision.csv", "work_precision.svg", "report.html"];
+const PNG: &str = "work_precision.png";
 
 /// Scenes whose runs are compared, and the directory of the results.
 pub struct Request<'a> {
@@ -76,6 +79,8 @@ pub struct Request<'a> {
     pub out: &'a Path,
     /// Whether files there are replaced that pfaff has not written.
     pub force: bool,
+    /// Whether the figure is written as PNG, too.
+    pub png: bool,
     /// Whether to answer with all results as one JSON document.
     pub json: bool,
 }
@@ -86,7 +91,12 @@ impl Request<'_> {
     /// # Errors
     /// If a scene cannot be run or a file cannot be written.
     pub fn run(&self, console: &Console<'_>) -> Outcome {
-        let directory = directory(self.out, &FILES, self.force)?;
+        let mut names = FILES.to_vec();
+        if self.png {
+            can_paint(None)?;
+            names.push(PNG);
+        }
+        let directory = directory(self.out, &names, self.force)?;
         let [csv, svg, page_name] = FILES;
         let file = directory.file(csv).map_err(|e| unwritten(&e))?;
         let table = WorkPrecisionTable::new(file).map_err(|e| unfinished(&e))?;
@@ -100,11 +110,18 @@ impl Request<'_> {
         finished.map_err(|e| unwritten(&e))?;
         let figure = figures::work_precision(&document.scenes);
         let page = work_precision_page(&document, &figure);
-        for (name, text) in [(svg, figure), (page_name, page)] {
+        for (name, text) in [(svg, &figure), (page_name, &page)] {
             directory
                 .write(name, text.as_bytes())
                 .map_err(|e| unwritten(&e))?;
         }
+        if self.png {
+            let painted = figures::png(&figure, None).map_err(|e| unpainted(&e))?;
+            directory.write(PNG, &painted.bytes)
+        } else {
+            directory.remove_stale(&[PNG]).map(|_| PathBuf::new())
+        }
+        .map_err(|e| unwritten(&e))?;
         let text = if self.json {
             json(&document)?
         } else {

@@ -43,6 +43,7 @@ pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
         plan: plan(arguments.quick, arguments.all),
         out: &arguments.out,
         force: true,
+        png: false,
         json: arguments.json,
     }
     .run(console)

@@ -32,6 +32,7 @@ what the scene states one for, or all with --tolerance. The same seed gives the 
 pub(super) const WORK_PRECISION: &str = "Examples:
   pfaff work-precision mine.toml --out wp            two methods that agree are the reference
   pfaff work-precision mine.toml --out wp --quick    three tolerances, for a first look
+  pfaff work-precision mine.toml --out wp --png      the figure as PNG, too
 
 Build with --release, and keep the machine idle: seconds are compared.";
 
@@ -93,6 +94,8 @@ What a scene cannot express is not invented: it stands at the head of the scene,
 pub(super) const VIEW: &str = "Examples:
   pfaff view robot-trolley.toml                 writes the page robot-trolley.html and opens it
   pfaff view robot-trolley.toml --out picture.svg --no-open
+  pfaff view robot-trolley.toml --png           writes robot-trolley.png, for a mail, slides or a report
+  pfaff view robot-trolley.toml --out large.png --scale 4
 
 The start is assembled first. Joints are filled by the verdict of their reactions, and named with their rows. Bodies are drawn through their joints: a scene does not
 tell their shapes.";

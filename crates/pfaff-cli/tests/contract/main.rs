@@ -25,6 +25,8 @@ mod linearise;
 mod man;
 mod new;
 mod own_joint;
+#[cfg(feature = "png")]
+mod picture;
 mod places;
 mod plan;
 mod refusals;

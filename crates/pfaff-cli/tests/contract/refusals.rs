@@ -129,7 +129,7 @@ const COMMANDS: [(&str, &str, bool, bool); 17] = [
 ];
 
 /// Further faults of single commands.
-const OF_ONE: [(&str, &str, &str); 28] = [
+const OF_ONE: [(&str, &str, &str); 31] = [
     ("linearise", "- --coordinates leaf.tilt", "P0222"),
     ("linearise", "- --at-time soon", "P0001"),
     ("analyze", "- --drop 0", "P0001"),
@@ -150,7 +150,10 @@ const OF_ONE: [(&str, &str, &str); 28] = [
     ("tolerance", "- --vary body.leaf.mass=2", "P0001"),
     ("tolerance", "- --vary body.nobody.mass=±1%", "P0501"),
     ("tolerance", "- --vary body.leaf.mass=±200%", "P0513"),
-    ("view", "- --out picture.png", "P0001"),
+    ("view", "- --out picture.gif", "P0001"),
+    ("view", "- --scale 2 --out picture.svg", "P0001"),
+    ("view", "- --scale 0 --out picture.png", "P0001"),
+    ("view", "- --scale 20 --out picture.png", "P0001"),
     ("new", "no-such-template", "P0001"),
     ("import", "-", "P0001"),
     ("import", "- --out -", "P0601"),

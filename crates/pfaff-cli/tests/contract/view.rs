@@ -102,8 +102,8 @@ fn wrong_places_and_wrong_scenes_are_refused() {
             "a directory, need a file",
         ),
         (
-            &["view", ROBOT, "--no-open", "--out", "robot.png"],
-            "need a name that ends with .html or .svg",
+            &["view", ROBOT, "--no-open", "--out", "robot.gif"],
+            "need a name that ends with .html, .svg or .png",
         ),
         (
             &["view", ROBOT, "--no-open", "--out", &nowhere],

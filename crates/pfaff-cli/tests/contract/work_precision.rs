@@ -52,9 +52,13 @@ fn a_scene_of_ones_own_is_compared_with_two_methods_that_agree() {
         "--json",
         "--out",
         folder.text(),
+        #[cfg(feature = "png")]
+        "--png",
     ];
     let output = with_scene(&arguments, PENDULUM);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
+    #[cfg(feature = "png")]
+    super::picture::is_the_figure(&folder, "work_precision");
     let document: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
     let reference = &document["scenes"][0]["reference"];
     let agreement = reference["agreement"].as_str().expect("a text");

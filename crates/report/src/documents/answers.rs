@@ -124,6 +124,12 @@ pub struct ViewDocument<'a> {
     pub file: String,
     /// Its size (bytes).
     pub bytes: usize,
+    /// Width and height of a PNG in pixels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pixels: Option<[u32; 2]>,
+    /// Characters that are boxes in a PNG because no font has them.
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub boxes: &'a str,
     /// Number of joints and drives.
     pub reactions: usize,
     /// Number of reactions that are not unique.
