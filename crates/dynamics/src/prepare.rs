@@ -202,6 +202,7 @@ pub fn prepare_after(
     let bits = |q: &[f64]| -> Vec<u64> { q.iter().map(|x| x.to_bits()).collect() };
     let known = other.filter(|other| {
         bits(&other.assembly.q) == bits(&assembly.q)
+            && other.assembly.size.to_bits() == assembly.size.to_bits()
             && mechanism.has_constraints_of(&other.mechanism)
     });
     if let Some(found) = known.and_then(|other| other.decided.clone()) {

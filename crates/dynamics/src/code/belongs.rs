@@ -108,6 +108,18 @@ pub enum CodeMismatch {
         /// Two of its values.
         values: [f64; 2],
     },
+    /// A mass or moment of inertia that is an input is zero in the mechanism, and was not when the
+    /// code was generated. The order of elimination depends on it, and the smallest correction of a
+    /// position has no meaning in the metric of what has no mass.
+    #[error(
+        "the code `{name}` was generated for a positive {input}, in the mechanism it is 0; generate it again for a mechanism without it"
+    )]
+    Massless {
+        /// Name of the code.
+        name: String,
+        /// Name of the input.
+        input: String,
+    },
     /// It does not take as many inputs as it names.
     #[error("the code `{name}` names {found} inputs and does not take them")]
     Inputs {
@@ -169,6 +181,7 @@ impl CodeInputs {
     /// # Errors
     /// - [`CodeMismatch::Shape`]: the equations of the mechanism are not those of the code.
     /// - [`CodeMismatch::Parts`]: what is one number in the code is several in the mechanism.
+    /// - [`CodeMismatch::Massless`]: the code was generated for a mass that the mechanism lacks.
     pub fn of(&self, code: &str, mechanism: &Mechanism) -> Result<Vec<f64>, CodeMismatch> {
         let shape = || CodeMismatch::Shape {
             name: code.to_owned(),
@@ -194,6 +207,14 @@ impl CodeInputs {
                         values: [first, other],
                     });
                 }
+            }
+            let mut masses = recording.mass.iter();
+            let is_lost = first == 0.0 && input.described != 0.0;
+            if is_lost && masses.any(|mass| input.places.contains(&mass.place())) {
+                return Err(CodeMismatch::Massless {
+                    name: code.to_owned(),
+                    input: input.name.to_string(),
+                });
             }
             Ok(first)
         };
@@ -237,6 +258,12 @@ impl Prepared {
     /// [`CodeMismatch`], if the code belongs to another mechanism or to other rows.
     pub fn with_code(self, code: Arc<SharedCode>) -> Result<Self, CodeMismatch> {
         self.with_code_compared(code, At::ManyStates)
+    }
+
+    /// The same without generated code.
+    #[must_use]
+    pub fn without_code(self) -> Self {
+        Self { code: None, ..self }
     }
 
     /// Like [`Prepared::with_code`] for code that has passed that with a mechanism of the same

@@ -36,7 +36,8 @@ impl SweepCode {
         }
         let described = described.ok_or("the scene has no start without its changes")?;
         // What is no number of the equations, such as a tolerance, needs no input.
-        let mut keys = keys.to_vec();
+        let is_of_run = |key: &&String| key.starts_with("simulate.");
+        let mut keys: Vec<String> = keys.iter().filter(|key| !is_of_run(key)).cloned().collect();
         let tape = loop {
             match scene_codegen::scene_tape(name, text, registry, &keys) {
                 Ok(tape) => break tape,

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use dynamics::{SceneCode, Stop};
-use report::{OutputDirectory, OutputFile, SweepRow, TrajectoryTable};
+use report::{OutputDirectory, SweepRow, TrajectoryTable};
 
 use super::lanes::together;
 use super::run::{Begun, Ended};
@@ -54,20 +54,15 @@ impl Sweep<'_> {
 
     /// A run with what it writes.
     fn job(&self, run: u64, begun: Begun, keep: Keep<'_>) -> Result<Job, SweepError> {
-        let trajectory = match keep {
+        let folder = match keep {
             Keep::Rows => None,
             Keep::Trajectories(directory) => {
                 let folder = folder(directory, run, self.runs());
                 // Another process may make the same run.
-                let folder = OutputDirectory::create(folder)?.with_own_parts();
-                Some(folder.file("trajectory.csv")?)
+                Some(OutputDirectory::create(folder)?.with_own_parts())
             }
         };
-        Ok(Job {
-            run,
-            begun,
-            trajectory,
-        })
+        Ok(Job { run, begun, folder })
     }
 }
 
@@ -75,14 +70,30 @@ impl Sweep<'_> {
 pub(super) struct Job {
     pub(super) run: u64,
     pub(super) begun: Begun,
-    trajectory: Option<OutputFile>,
+    /// Where its trajectory goes.
+    folder: Option<OutputDirectory>,
 }
 
 impl Job {
     /// Moves it to its end and stores its trajectory; `None` if `stop` has ended it: it is made
     /// again then. `evaluator` evaluates its code, if there are several runs at once.
     pub(super) fn go(
-        self,
+        mut self,
+        evaluator: Option<&dyn SceneCode>,
+        stop: &Stop<'_>,
+    ) -> Result<Option<Ended>, SweepError> {
+        let ended = self.attempt(evaluator, stop)?;
+        if ended.as_ref().is_some_and(Ended::has_lost_its_way) {
+            // The interpreter passes some places from where it comes, and not from where code
+            // leaves it.
+            self.begun.leave_code();
+            return self.attempt(None, stop);
+        }
+        Ok(ended)
+    }
+
+    fn attempt(
+        &self,
         evaluator: Option<&dyn SceneCode>,
         stop: &Stop<'_>,
     ) -> Result<Option<Ended>, SweepError> {
@@ -90,10 +101,13 @@ impl Job {
             return Ok(None);
         }
         let mechanism = &self.begun.study.prepared.mechanism;
-        let table = self
-            .trajectory
-            .map(|file| TrajectoryTable::new(file, mechanism));
-        let mut table = table.transpose()?;
+        let mut table = match &self.folder {
+            Some(folder) => {
+                let file = folder.file("trajectory.csv")?;
+                Some(TrajectoryTable::new(file, mechanism)?)
+            }
+            None => None,
+        };
         let mut unwritten = None;
         let ended = self.begun.go(evaluator, stop, |sample| {
             if let Some(table) = &mut table {

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use dynamics::plan::{Reactions, Rows};
 use dynamics::{
-    MotionFault, MotionOptions, Plan, Prepared, Sample, SceneCode, Stop, Summary, Wanted,
+    Event, EventKind, MotionFault, MotionOptions, Plan, Prepared, Sample, SceneCode, Stop, Summary,
+    Wanted,
 };
 use model::space::norm;
 use model::{Mechanism, System};
@@ -71,6 +72,15 @@ impl Described {
 pub(super) struct Ended {
     motion: SweepMotion,
     error: Option<StudyError>,
+    /// Whether it has left generated code on the way.
+    left_code: bool,
+}
+
+impl Ended {
+    /// Whether it stopped after it had left generated code.
+    pub(super) fn has_lost_its_way(&self) -> bool {
+        self.error.is_some() && self.left_code
+    }
 }
 
 impl Sweep<'_> {
@@ -114,7 +124,7 @@ impl Sweep<'_> {
     }
 
     /// The row of a run that has begun.
-    pub(super) fn row_of(&self, run: u64, Ended { motion, error }: Ended) -> SweepRow {
+    pub(super) fn row_of(&self, run: u64, Ended { motion, error, .. }: Ended) -> SweepRow {
         match error {
             // The run has no state.
             Some(error) if motion.t_state.is_nan() => self.refused(run, &error),
@@ -158,6 +168,11 @@ impl Sweep<'_> {
 const CRASHED: &str = "the process ended twice while it made this run and no other";
 
 impl Begun {
+    /// Interprets it from its start on.
+    pub(super) fn leave_code(&mut self) {
+        self.study.prepared = self.study.prepared.clone().without_code();
+    }
+
     /// Moves it to its end, or until `each`, which is called with every written row, or `stop`,
     /// which is called at each evaluation, stops it. `evaluator` evaluates its code, if there are
     /// several runs at once.
@@ -187,11 +202,18 @@ impl Begun {
             Ok(Err(failure)) => (failure.summary, Some(StudyError::from(failure.error))),
             Err(error) => (Summary::default(), Some(error.into())),
         };
+        let mut events = summary.events.iter();
         Ended {
             motion: watch.motion(&summary),
             error,
+            left_code: events.any(|event| event.kind == EventKind::CodeLeft),
         }
     }
+}
+
+/// Whether an event is one of the motion, not of how it is computed.
+fn is_of_motion(event: &&Event) -> bool {
+    !matches!(event.kind, EventKind::CodeLeft | EventKind::CodeUsed)
 }
 
 /// An error as text, without the name and the lines of a text that the user has not written.
@@ -307,7 +329,7 @@ impl<'s> Watch<'s> {
             energy_balance: summary.energy_balance,
             start_correction: largest(&study.prepared.assembly.correction),
             start_velocity_correction: largest(&study.prepared.velocity_correction),
-            events: summary.events.len() as u64,
+            events: summary.events.iter().filter(is_of_motion).count() as u64,
             rank: analysis.decision.rank as u64,
             redundancy: analysis.decision.redundancy as u64,
             not_unique: not_unique.count() as u64,

@@ -26,6 +26,7 @@ pub(crate) const SOFTWARE: &str = "pfaff";
 
 /// Pixels for each px of the figure if nothing else is requested: sharp on a screen with small
 /// pixels, and 1920 of them for the picture of a mechanism.
+#[cfg(any(feature = "png", test))]
 const SHARP: f64 = 2.0;
 
 /// Scales that can be requested. With less than a tenth no symbol can be told from another.

@@ -35,7 +35,26 @@ joint = [
 simulate = { t_end = 1.0, output_step = 0.05, rtol = 1e-8, atol = 1e-10 }
 "#;
 
-const CASES: [(&str, &[&str]); 3] = [
+/// A chassis on two wheels, pushed; a wheel without inertia about its axle has no mass where only
+/// positions are held.
+const WHEELS: &str = r#"
+scene = { name = "wheels", space = "spatial", gravity = [0.0, 0.0, -9.81] }
+body = [
+    { name = "chassis", mass = 20.0, inertia = [1.0, 2.0, 3.0], position = [0.0, 0.0, 0.5] },
+    { name = "left", mass = 1.0, inertia = [0.025, 0.045, 0.025], position = [0.0, 0.4, 0.3] },
+    { name = "right", mass = 1.0, inertia = [0.025, 0.045, 0.025], position = [0.0, -0.4, 0.3] },
+]
+joint = [
+    { name = "A", type = "revolute", bodies = ["chassis", "left"], at = [0.0, 0.4, 0.3], axis = [0.0, 1.0, 0.0] },
+    { name = "B", type = "revolute", bodies = ["chassis", "right"], at = [0.0, -0.4, 0.3], axis = [0.0, 1.0, 0.0] },
+    { name = "C", type = "wheel", body = "left", point = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0], radius = 0.3 },
+    { name = "D", type = "wheel", body = "right", point = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0], radius = 0.3 },
+]
+force = [{ name = "push", type = "point-force", body = "chassis", point = [0.0, 0.0, 0.0], force = [13.0, 0.0, 0.0] }]
+simulate = { t_end = 0.3, output_step = 0.05, rtol = 1e-8, atol = 1e-10 }
+"#;
+
+const CASES: [(&str, &[&str]); 4] = [
     (
         CART,
         &["body.cart.mass=8:14:10", "body.bob.inertia=0.01:0.05:10"],
@@ -47,6 +66,10 @@ const CASES: [(&str, &[&str]); 3] = [
     (
         SLIDER,
         &["body.rod.mass=0.2:1:10", "scene.gravity[1]=-20:0:10"],
+    ),
+    (
+        WHEELS,
+        &["body.right.inertia[1]=0,0.045", "body.left.mass=0.5:2:50"],
     ),
 ];
 
