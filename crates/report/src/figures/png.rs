@@ -1,7 +1,7 @@
 //! Figures as PNG files: the SVG text of a figure, painted.
 //!
 //! Nothing is drawn twice: whatever is to be seen in a picture stands in the SVG, with its style
-//! sheet. Text is set in the fonts of `fonts/`, so that a picture has the same bytes on every
+//! sheet. Text is set in the fonts of `fonts/`, so that a picture looks the same on every
 //! machine. Only characters that these do not have are looked for in the fonts of the machine; one
 //! that is not there either becomes a box.
 
