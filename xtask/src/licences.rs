@@ -1,6 +1,6 @@
 //! `THIRD-PARTY.md`: the crates of others that the command `pfaff` links, and its fonts, with their
-//! licences and the texts of these, and the same of the package for Python. Written from `cargo tree`, which
-//! resolves features as a build does, and from the sources of the crates.
+//! licences and the texts of these, and the same of the package for Python. Written from
+//! `cargo tree`, which resolves features as a build does, and from the sources of the crates.
 //!
 //! cargo-about and cargo-deny do more, but they have to be installed first; this needs what builds
 //! the workspace, and `--check` needs no network.

@@ -1,5 +1,5 @@
-//! `pfaff view`: writes a page of the assembled start, or its picture as SVG or PNG, and opens it in
-//! the system's viewer.
+//! `pfaff view`: writes a page of the assembled start, or its picture as SVG or PNG, and opens it
+//! in the system's viewer.
 
 use std::env;
 use std::path::{Path, PathBuf};

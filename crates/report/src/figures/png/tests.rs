@@ -1,3 +1,5 @@
+//! Sizes and refusals, and pictures as another program reads them.
+
 use super::*;
 
 #[test]
