@@ -106,10 +106,13 @@ def _made(
     return Done(shard.k, made, tables, json.loads(summary))
 
 
-@functools.lru_cache(maxsize=2)
-def _sweep_of(name: str, text: str, vary: tuple[str, ...], keep_rows: bool) -> _pfaff.Sweep:
-    """A sweep, with what is known of all of its runs; the shards of a worker share it."""
+def _read(name: str, text: str, vary: tuple[str, ...], keep_rows: bool) -> _pfaff.Sweep:
+    """A sweep, with what is known of all of its runs."""
     return _pfaff.Sweep(name, text, list(vary), keep_rows)
+
+
+_sweep_of = functools.lru_cache(maxsize=2)(_read)
+"""The same; the shards of a worker share it."""
 
 
 def _tried(shard: Shard) -> float:
