@@ -173,7 +173,13 @@ def main() -> None:
     parser.add_argument("--command", type=Path)
     parser.add_argument("--turns", type=int, default=3)
     parser.add_argument("--cases", default=",".join(CASES))
+    parser.add_argument("--robots", type=int, default=2000, help="runs of the robot")
+    parser.add_argument("--no-profiler", action="store_true", help="without that of Dask")
     arguments = parser.parse_args()
+    if arguments.no_profiler:
+        os.environ["DASK_DISTRIBUTED__WORKER__PROFILE__ENABLED"] = "false"
+    text, _ = CASES["robot"]
+    CASES["robot"] = (text, f"body.platform.mass=10:40:{arguments.robots}")
     import pfaff
 
     command = arguments.command and arguments.command.resolve()
