@@ -1,7 +1,7 @@
 //! Several runs on one thread, whose code is evaluated together. Each run is a coroutine that waits
 //! whenever it needs a function of its code; once all wait, the function that most of them need is
-//! evaluated for as many of these as fill whole lanes. So runs keep their own steps, projections and
-//! events, and are the same bits as alone.
+//! evaluated for as many of these as fill whole lanes. So runs keep their own steps, projections
+//! and events, and are the same bits as alone.
 
 use std::cell::RefCell;
 use std::sync::Arc;
