@@ -95,12 +95,37 @@ pub(crate) const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
 /// for. Test: `graded_masses_choose_among_the_large_entries`.
 pub(crate) const CANDIDATE: f64 = 0.1;
 
+/// When a row has been eliminated, rows in its coordinates are looked at again if so many are left
+/// there: few others have become much less work.
+/// Unit: rows. Less: other rows would have been less work. More: time of the order. Test: none,
+/// work only.
+pub(crate) const REVISED: usize = 4;
+
+/// The order of elimination is planned for entries above this share of the largest one of a row, so
+/// that most are still large enough when the mechanism has moved on.
+/// Unit: share of the largest entry. Less: the plan soon does not hold. More: factors fill. Test:
+/// none, work only.
+pub(crate) const PIVOT_PLANNED: f64 = 0.5;
+
+/// A row is solved for one of its entries above this share of the largest one, in a coordinate in
+/// which few later rows have entries: multipliers of the elimination stay below its inverse.
+/// Unit: share of the largest entry. Less: elimination grows. More: factors fill. Test:
+/// `a_row_is_solved_for_what_few_later_rows_have_entries_in`.
+pub(crate) const PIVOT_CHOSEN: f64 = 0.1;
+
 /// A row is solved for the same coordinate as in the factorisation before as long as its entry is
-/// above this share of the best one: multipliers of the elimination stay below its inverse.
+/// above this share of the largest one: multipliers of the elimination stay below its inverse.
 /// Unit: share of the largest entry. Less: elimination grows. More: coordinates and the places of
 /// all entries are searched for again and again. Test:
+/// `a_row_is_solved_for_the_same_entry_while_that_is_large`.
+pub(crate) const PIVOT_REPEATED: f64 = 0.05;
+
+/// The same where nothing is gained by a smaller entry: where rows are dense, where coordinates are
+/// given, and, by c/√m, where masses are graded.
+/// Unit: share of the best entry. Less: digits are lost. More: coordinates and the places of all
+/// entries are searched for again and again. Test:
 /// `a_row_is_solved_for_the_same_entry_while_that_is_nearly_the_largest`.
-pub(crate) const PIVOT_REPEATED: f64 = 0.8;
+pub(crate) const LARGEST_REPEATED: f64 = 0.8;
 
 /// Entries of L and of U for which storage is reserved at once; larger factors ask for it when
 /// they find them.

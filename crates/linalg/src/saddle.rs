@@ -31,6 +31,7 @@ mod factor;
 mod free;
 mod lists;
 mod lu;
+mod order;
 mod orientation;
 mod partition;
 mod refine;
@@ -41,7 +42,9 @@ mod tests;
 use crate::limits::{CANCELLED, GRADED_MASSES, VECTORS};
 use crate::{Lu, SparseMatrix};
 use free::FreeMotions;
+use lists::Entry;
 use lu::TallLu;
+use order::Order;
 
 pub use error::SaddleError;
 pub use refine::Refinement;
@@ -142,7 +145,13 @@ impl KeptRowSaddle {
     #[must_use]
     pub fn bytes(c: &SparseMatrix) -> usize {
         let k = c.ncols().saturating_sub(c.nrows());
-        let columns: Vec<&[usize]> = (0..c.nrows()).map(|k| c.row(k).0).collect();
+        let entries = |k: usize| {
+            let (columns, values) = c.row(k);
+            let entries = columns.iter().zip(values);
+            entries.map(|(&i, &c)| Entry::new(i, c)).collect()
+        };
+        let order = Order::new(c.ncols(), (0..c.nrows()).map(entries).collect(), None);
+        let columns: Vec<&[usize]> = order.rows.iter().map(|&k| c.row(k).0).collect();
         let entries = bound::bound(c.ncols(), &columns).iter().sum::<usize>();
         let numbers = (c.ncols() + 2 * k) * (k + VECTORS);
         entries * (size_of::<f64>() + size_of::<u32>()) + numbers * size_of::<f64>()

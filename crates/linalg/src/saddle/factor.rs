@@ -15,7 +15,8 @@ impl KeptRowSaddle {
     /// | `mass` | n | diagonal of M, entries ≥ 0 |
     ///
     /// Costs about n·r² + k·r²/2 + k²·r/2 multiplications for rows without zeros; does not allocate
-    /// unless it fails, or finds more entries of large factors than before. After an error the
+    /// unless it is the first one, by whose values the order of elimination is chosen, or it fails,
+    /// or finds more entries of large factors than before. After an error the
     /// solver has no factorisation.
     ///
     /// # Errors
@@ -28,10 +29,10 @@ impl KeptRowSaddle {
         row: impl Fn(usize) -> &'c [f64],
         mass: &[f64],
     ) -> Result<(), SaddleError> {
-        self.prepare(mass)?;
+        self.prepare(&row, mass)?;
         let graded = self.is_graded.then_some(mass);
         for j in 0..self.lu.n_rows() {
-            let k = self.lu.order[j];
+            let k = self.lu.order.rows[j];
             let row = (k, row(k));
             if let Elimination::Dependent { pivot, scale } =
                 self.lu.eliminate(row, graded, PIVOT_FLOOR)?
@@ -84,11 +85,11 @@ impl KeptRowSaddle {
         row: impl Fn(usize) -> &'c [f64],
         mass: &[f64],
     ) -> Result<(), SaddleError> {
-        self.prepare(mass)?;
+        self.prepare(&row, mass)?;
         let graded = self.is_graded.then_some(mass);
         let floor = floor.max(PIVOT_FLOOR);
         for j in 0..self.lu.n_rows() {
-            let k = self.lu.order[j];
+            let k = self.lu.order.rows[j];
             self.lu.eliminate((k, row(k)), graded, floor)?;
         }
         let free = self.lu.n - self.lu.r;
@@ -98,7 +99,11 @@ impl KeptRowSaddle {
         self.finish(row, mass)
     }
 
-    fn prepare(&mut self, mass: &[f64]) -> Result<(), SaddleError> {
+    fn prepare<'c>(
+        &mut self,
+        row: impl Fn(usize) -> &'c [f64],
+        mass: &[f64],
+    ) -> Result<(), SaddleError> {
         self.is_factored = false;
         check_length("mass", mass, self.lu.n)?;
         check_finite("mass", mass, 0)?;
@@ -117,7 +122,7 @@ impl KeptRowSaddle {
         };
         self.mass_spread = self.known_spread.unwrap_or(self.mass_spread);
         self.is_graded = self.mass_spread >= from;
-        self.lu.begin();
+        self.lu.begin(row);
         Ok(())
     }
 

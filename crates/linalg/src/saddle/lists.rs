@@ -21,6 +21,11 @@ impl Lists {
         self.start.len() - 1
     }
 
+    pub(super) fn clear(&mut self) {
+        self.start.truncate(1);
+        self.index.clear();
+    }
+
     pub(super) fn push(&mut self, list: impl IntoIterator<Item = u32>) {
         self.index.extend(list);
         self.start.push(self.index.len());
@@ -35,6 +40,8 @@ impl Lists {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry {
     pub(super) index: u32,
+    /// Of an entry of U, the coordinate that the row is solved for of which `index` is the place.
+    at: u32,
     pub(super) value: f64,
 }
 
@@ -42,8 +49,23 @@ impl Entry {
     pub(super) fn new(index: usize, value: f64) -> Self {
         Self {
             index: index as u32,
+            at: 0,
             value,
         }
+    }
+
+    /// An entry of U: the place of the row that is eliminated with, and its coordinate.
+    pub(super) fn of_row(index: usize, at: usize, value: f64) -> Self {
+        Self {
+            at: at as u32,
+            ..Self::new(index, value)
+        }
+    }
+
+    /// The coordinate of an entry of U.
+    #[inline(always)]
+    pub(super) fn at(&self) -> usize {
+        self.at as usize
     }
 
     #[inline(always)]

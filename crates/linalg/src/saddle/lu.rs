@@ -1,19 +1,19 @@
 //! LU of the tall Cᵀ, one row of C after the other: `P·Cᵀ = L·U`, `L = [L₁; L₂]` unit lower
 //! trapezoidal, with the entries only that can be other than zero.
 //!
-//! A row is solved for its largest remaining entry. Which entries can be other than zero depends
-//! on these choices, so the first factorisation finds both ([`TallLu::search`]). Later ones
-//! repeat them ([`TallLu::repeat`]) up to the first row in which the entry that was the largest
-//! has fallen below a share of the present largest, and search from there on. Sources: J. R.
+//! A row is solved for one of its large remaining entries, in a coordinate in which few later rows
+//! have entries: only these are eliminated with it. Which entries can be other than zero depends on
+//! these choices, so the first factorisation finds both ([`TallLu::search`]). Later ones repeat
+//! them ([`TallLu::repeat`]) up to the first row in which the entry that was chosen has fallen
+//! below a share of the present largest, and search from there on. Sources: J. R.
 //! Gilbert, T. Peierls, Sparse partial pivoting in time proportional to arithmetic operations,
 //! SIAM J. Sci. Stat. Comput. 9 (1988) 862–874; T. A. Davis, E. Palamadai Natarajan, Algorithm
 //! 907: KLU, ACM Trans. Math. Softw. 37 (2010) 36, for the repetition.
 
-use super::bound::bound;
 use super::error::{SaddleError, check_length};
 use super::lists::{Entries, Entry, Lists};
-use crate::limits::{CANDIDATE, PIVOT_REPEATED, RESERVED};
-use crate::minimum_degree;
+use super::order::Order;
+use crate::limits::{CANDIDATE, LARGEST_REPEATED, PIVOT_CHOSEN, PIVOT_REPEATED, RESERVED};
 
 /// Factors of the rows that are used.
 #[derive(Debug, Clone)]
@@ -23,8 +23,14 @@ pub(super) struct TallLu {
     pub(super) columns: Lists,
     /// Coordinates that may be solved for; all if `None`.
     solvable: Option<Vec<bool>>,
-    /// Rows of C in the order of their elimination.
-    pub(super) order: Vec<usize>,
+    /// Whether rows are solved for smaller entries to spare others. Not where nothing is gained by
+    /// that, nor where pivots have to tell how good given coordinates are.
+    spares: bool,
+    pub(super) order: Order,
+    /// The place of each row in the order, none before it is chosen, and for each coordinate the
+    /// places of the rows that can have entries there, ascending.
+    place: Vec<u32>,
+    touching: Lists,
     /// Number of rows in use: all rows without the skipped ones.
     pub(super) r: usize,
     /// The row of C for each row in use, and the coordinate that it is solved for. Of
@@ -73,27 +79,65 @@ pub(super) enum Elimination {
     },
 }
 
-/// What decides which entry a row is solved for: its size, and masses if they are graded.
+/// What decides which entry a row is solved for: its size, and masses if they are graded, or else
+/// the number of later rows in its coordinate.
 #[derive(Clone, Copy)]
 struct Choice<'a> {
     solvable: Option<&'a [bool]>,
     graded: Option<&'a [f64]>,
+    spares: bool,
 }
 
+/// The coordinate that a row is solved for, and the size by which it is compared with others: the
+/// largest entry, or its own where masses are graded.
+type Chosen = (usize, f64);
+
 impl Choice<'_> {
-    /// The coordinate to be solved for, `None` if no entry can be.
-    fn best(self, x: &[f64], among: impl Iterator<Item = usize> + Clone) -> Option<usize> {
+    /// The coordinate to be solved for, `None` if no entry can be: the wished one if its entry is
+    /// large enough, or else the one in which the fewest later rows can have entries.
+    fn best(
+        self,
+        x: &[f64],
+        among: impl Iterator<Item = usize> + Clone,
+        (wish, later): (Option<usize>, impl Fn(usize) -> usize),
+    ) -> Option<Chosen> {
         let among = among.filter(|&i| self.solvable.is_none_or(|solvable| solvable[i]));
         let larger = |a: usize, b: usize| {
             let is_larger = x[b].abs() > x[a].abs() || x[b].abs() == x[a].abs() && b < a;
             if is_larger || x[a].is_nan() { b } else { a }
         };
         let largest = among.clone().reduce(larger)?;
-        let Some(mass) = self.graded else {
-            return Some(largest);
-        };
-        let least = CANDIDATE * x[largest].abs();
+        let size = x[largest].abs();
+        if self.graded.is_some() {
+            let at = self.lightest(x, among, size)?;
+            return Some((at, x[at].abs()));
+        }
+        let least = if self.spares { PIVOT_CHOSEN } else { 1.0 } * size;
         let candidates = among.filter(|&i| x[i].abs() >= least);
+        if let Some(at) = candidates.clone().find(|i| Some(*i) == wish) {
+            return Some((at, size));
+        }
+        let rarer = |a: (usize, usize), b: (usize, usize)| {
+            let [rows, other] = [a.1, b.1];
+            if other < rows || other == rows && larger(a.0, b.0) == b.0 {
+                b
+            } else {
+                a
+            }
+        };
+        let rarest = candidates.map(|i| (i, later(i))).reduce(rarer);
+        Some((rarest.map_or(largest, |(at, _)| at), size))
+    }
+
+    /// The coordinate with the largest c²/m among the large entries of graded masses.
+    fn lightest(
+        self,
+        x: &[f64],
+        among: impl Iterator<Item = usize>,
+        largest: f64,
+    ) -> Option<usize> {
+        let mass = self.graded?;
+        let candidates = among.filter(|&i| x[i].abs() >= CANDIDATE * largest);
         // Compares c²/m without quotients: masses may be zero.
         let lighter = |a: usize, b: usize| {
             let [of_a, of_b] = [x[a] * x[a] * mass[b], x[b] * x[b] * mass[a]];
@@ -117,41 +161,27 @@ impl Choice<'_> {
         let pivot = x[at].abs();
         let larger = |m: f64, i: usize| if x[i].abs() > m { x[i].abs() } else { m };
         let Some(mass) = self.graded else {
-            let others = others.filter(|&i| self.solvable.is_none_or(|solvable| solvable[i]));
-            let largest = others.fold(pivot, larger);
+            let largest = match self.solvable {
+                None => others.fold(pivot, larger),
+                Some(solvable) => others.filter(|&i| solvable[i]).fold(pivot, larger),
+            };
             // False for NaN, too.
-            return (pivot >= PIVOT_REPEATED * largest).then_some(largest);
+            let share = if self.spares {
+                PIVOT_REPEATED
+            } else {
+                LARGEST_REPEATED
+            };
+            return (pivot >= share * largest).then_some(largest);
         };
+        let others = others.filter(|&i| self.solvable.is_none_or(|solvable| solvable[i]));
         let all = others.chain([at]);
-        let best = self.best(x, all.clone())?;
-        let largest = all.fold(0.0, larger);
-        let share = PIVOT_REPEATED * x[best];
+        let largest = all.clone().fold(0.0, larger);
+        let best = self.lightest(x, all, largest)?;
+        let share = LARGEST_REPEATED * x[best];
         let is_light = x[at] * x[at] * mass[best] >= share * share * mass[at];
         // Compared with others, a row solved for a light coordinate has its own pivot.
         (pivot >= CANDIDATE * largest && is_light).then_some(pivot)
     }
-}
-
-/// Rows in the given order of elimination, or in one of approximately minimum degree if its factors
-/// need fewer entries.
-fn order(n: usize, columns: &[Vec<usize>]) -> Vec<usize> {
-    let given = Vec::from_iter(0..columns.len());
-    if columns.iter().all(|columns| columns.len() == n) {
-        // Dense rows fill their triangles in every order.
-        return given;
-    }
-    let mut touching = vec![Vec::new(); n];
-    for (row, columns) in columns.iter().enumerate() {
-        columns
-            .iter()
-            .for_each(|&column| touching[column].push(row));
-    }
-    let other = minimum_degree(columns.len(), &touching);
-    let [of_given, of_other] = [&given, &other].map(|order| {
-        let columns: Vec<&[usize]> = order.iter().map(|&row| &columns[row][..]).collect();
-        bound(n, &columns).iter().sum::<usize>()
-    });
-    if of_other < of_given { other } else { given }
 }
 
 /// Sum of entries times the values at their places.
@@ -173,8 +203,11 @@ impl TallLu {
         Self {
             n,
             columns: lists,
-            order: order(n, columns),
+            order: Order::default(),
+            place: Vec::with_capacity(rows),
+            touching: Lists::with_capacity(n, entries),
             solvable: None,
+            spares: false,
             r: 0,
             used: Vec::with_capacity(rows),
             is_used: vec![false; rows],
@@ -210,13 +243,39 @@ impl TallLu {
     /// From now on rows are solved for these coordinates only; for any if `None`.
     pub(super) fn solve_for(&mut self, solvable: Option<Vec<bool>>) {
         self.solvable = solvable;
+        self.place.clear();
         self.keep(0);
     }
 
-    /// Removes all rows.
-    pub(super) fn begin(&mut self) {
+    /// Removes all rows. Their order is chosen, by these values, if that has not been done.
+    pub(super) fn begin<'c>(&mut self, row: impl Fn(usize) -> &'c [f64]) {
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
+        if self.place.len() < self.n_rows() {
+            self.choose_order(row);
+        }
+    }
+
+    fn choose_order<'c>(&mut self, row: impl Fn(usize) -> &'c [f64]) {
+        let entries = |k: usize| {
+            let entries = self.columns.of(k).iter().zip(row(k));
+            entries.map(|(&i, &c)| Entry::new(i as usize, c)).collect()
+        };
+        let rows = (0..self.n_rows()).map(entries).collect();
+        self.order = Order::new(self.n, rows, self.solvable.as_deref());
+        self.spares = self.solvable.is_none() && self.order.is_planned();
+        self.place.resize(self.n_rows(), 0);
+        let mut touching = vec![Vec::new(); self.n];
+        for (place, &row) in self.order.rows.iter().enumerate() {
+            self.place[row] = place as u32;
+            for &column in self.columns.of(row) {
+                touching[column as usize].push(place as u32);
+            }
+        }
+        self.touching.clear();
+        touching
+            .into_iter()
+            .for_each(|list| self.touching.push(list));
     }
 
     /// The rows of C in use.
@@ -243,35 +302,40 @@ impl TallLu {
         graded: Option<&[f64]>,
         floor: f64,
     ) -> Result<Elimination, SaddleError> {
-        check_length("row of C", c_j, self.columns.of(row).len())?;
+        let columns = self.columns.of(row);
+        check_length("row of C", c_j, columns.len())?;
+        let x = &mut self.work.x[..];
         // x·0 is NaN exactly for NaN and infinities.
         let (mut scale, mut zero) = (0.0_f64, 0.0);
-        for c in c_j {
+        for (&i, &c) in columns.iter().zip(c_j) {
+            x[i as usize] = c;
             zero += c * 0.0;
             scale = if c.abs() > scale { c.abs() } else { scale };
         }
         if zero != 0.0 {
+            columns.iter().for_each(|&i| x[i as usize] = 0.0);
             let at = c_j.iter().position(|c| !c.is_finite()).unwrap_or(0);
             return Err(SaddleError::NonFinite {
                 argument: "C",
-                index: row * self.n + self.columns.of(row)[at] as usize,
+                index: row * self.n + columns[at] as usize,
                 value: c_j[at],
             });
         }
         let least = floor * scale;
         let j = self.r;
         if self.used.get(j) == Some(&row) {
-            if let Some([pivot, largest]) = self.repeat((row, c_j), graded, least) {
+            if let Some([pivot, inverse, largest]) = self.repeat(graded, least) {
                 self.note(largest, scale);
-                self.accept(pivot);
+                self.accept(pivot, inverse);
                 return Ok(Elimination::Used);
             }
             self.keep(j);
         }
         let found = self.search((row, c_j), graded);
-        let pivot = found.map_or(0.0, |at| self.work.x[at]);
+        let size = found.map_or(0.0, |(_, size)| size);
         match found {
-            Some(at) if pivot.abs() > least => {
+            Some((at, _)) if size > least => {
+                let pivot = self.work.x[at];
                 self.keep(j);
                 self.is_changed = true;
                 self.used.push(row);
@@ -285,41 +349,30 @@ impl TallLu {
                 let entry = |&i: &usize| Entry::new(i, x[i] * inverse);
                 self.lower.push(below.map(entry));
                 self.clear();
-                self.note(pivot, scale);
-                self.accept(pivot);
+                self.note(size, scale);
+                self.accept(pivot, inverse);
                 Ok(Elimination::Used)
             }
             _ => {
                 self.clear();
-                self.note(pivot, scale);
-                Ok(Elimination::Dependent {
-                    pivot: pivot.abs(),
-                    scale,
-                })
+                self.note(size, scale);
+                Ok(Elimination::Dependent { pivot: size, scale })
             }
         }
     }
 
-    /// Eliminates a row with the rows and entries of the last factorisation. Returns its pivot and
-    /// the size of the largest entry, or nothing if another coordinate should be solved for.
-    fn repeat(
-        &mut self,
-        (row, c_j): (usize, &[f64]),
-        graded: Option<&[f64]>,
-        least: f64,
-    ) -> Option<[f64; 2]> {
+    /// Eliminates the row in the scratch with the rows and entries of the last factorisation.
+    /// Returns its pivot, the inverse of it, and the size of the largest entry, or nothing if
+    /// another coordinate should be solved for; the scratch is zero in either case.
+    fn repeat(&mut self, graded: Option<&[f64]>, least: f64) -> Option<[f64; 3]> {
         let j = self.r;
         let x = &mut self.work.x[..];
-        for (&i, &c) in self.columns.of(row).iter().zip(c_j) {
-            x[i as usize] = c;
-        }
         for entry in self.upper.of_mut(j) {
-            let k = entry.index();
-            let u_kj = std::mem::take(&mut x[self.pivot[k]]);
+            let u_kj = std::mem::take(&mut x[entry.at()]);
             entry.value = u_kj;
             // Entries of a joint along the axes of the ground are often zero.
             if u_kj != 0.0 {
-                for l in self.lower.of(k) {
+                for l in self.lower.of(entry.index()) {
                     x[l.index()] -= u_kj * l.value;
                 }
             }
@@ -328,6 +381,7 @@ impl TallLu {
         let choice = Choice {
             solvable: self.solvable.as_deref(),
             graded,
+            spares: self.spares,
         };
         let below = self.lower.of_mut(j);
         let pivot = x[at];
@@ -338,12 +392,12 @@ impl TallLu {
         for entry in below {
             entry.value = std::mem::take(&mut x[entry.index()]) * inverse;
         }
-        Some([pivot, largest?])
+        Some([pivot, inverse, largest?])
     }
 
     /// Eliminates a row with the rows before it, wherever it can have entries, and leaves the
     /// result in the scratch. Returns the coordinate that it is best solved for.
-    fn search(&mut self, (row, c_j): (usize, &[f64]), graded: Option<&[f64]>) -> Option<usize> {
+    fn search(&mut self, (row, c_j): (usize, &[f64]), graded: Option<&[f64]>) -> Option<Chosen> {
         let j = self.r as u32;
         let Work {
             x,
@@ -372,8 +426,9 @@ impl TallLu {
                 let bit = rows[word].trailing_zeros();
                 rows[word] &= rows[word] - 1;
                 let k = 64 * word + bit as usize;
-                let u_kj = x[self.pivot[k]];
-                upper.push(Entry::new(k, u_kj));
+                let at = self.pivot[k];
+                let u_kj = x[at];
+                upper.push(Entry::of_row(k, at, u_kj));
                 for l in self.lower.of(k) {
                     x[l.index()] -= u_kj * l.value;
                     touch(l.index(), rows);
@@ -384,9 +439,15 @@ impl TallLu {
         let choice = Choice {
             solvable: self.solvable.as_deref(),
             graded,
+            spares: self.spares,
         };
         let left = touched.iter().copied().filter(|&i| row_of[i] >= j);
-        choice.best(x, left)
+        let place = self.place[row];
+        let later = |i: usize| {
+            let places = self.touching.of(i);
+            places.len() - places.partition_point(|&p| p <= place)
+        };
+        choice.best(x, left, (self.order.wish[place as usize], later))
     }
 
     /// Clears the scratch of a row.
@@ -420,9 +481,9 @@ impl TallLu {
         self.lower.truncate(rows);
     }
 
-    fn accept(&mut self, pivot: f64) {
+    fn accept(&mut self, pivot: f64, inverse: f64) {
         self.diagonal[self.r] = pivot;
-        self.inverse[self.r] = 1.0 / pivot;
+        self.inverse[self.r] = inverse;
         self.r += 1;
     }
 
@@ -460,7 +521,7 @@ impl TallLu {
     pub(super) fn determine(&self, gamma: &[f64], y: &mut [f64]) {
         for (j, (&row, &at)) in self.used.iter().zip(&self.pivot).enumerate() {
             let upper = self.upper.of(j).iter();
-            let sum: f64 = upper.map(|u| u.value * y[self.pivot[u.index()]]).sum();
+            let sum: f64 = upper.map(|u| u.value * y[u.at()]).sum();
             y[at] = (gamma[row] - sum) * self.inverse[j];
         }
         for (j, &at) in self.pivot.iter().enumerate().rev() {
@@ -481,7 +542,7 @@ impl TallLu {
             let lambda_j = g[at] * self.inverse[j];
             lambda[self.used[j]] = lambda_j;
             for u in self.upper.of(j) {
-                g[self.pivot[u.index()]] -= lambda_j * u.value;
+                g[u.at()] -= lambda_j * u.value;
             }
         }
     }

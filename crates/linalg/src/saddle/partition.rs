@@ -39,8 +39,8 @@ impl KeptRowSaddle {
         self.lu.pivots()
     }
 
-    /// From the next factorisation on, rows are solved for any coordinates, those with the largest
-    /// entries in it.
+    /// From the next factorisation on, rows are solved for any coordinates in which they have large
+    /// entries.
     pub fn forget_partition(&mut self) {
         self.lu.solve_for(None);
     }
@@ -136,6 +136,19 @@ mod tests {
         assert_eq!(solved_for([1.0, 2.0, -1.0, 2.6]), 3);
         assert_eq!(solved_for([1.0, 2.0, -1.0, 1.7]), 3);
         assert_eq!(solved_for(ROWS[0]), 1);
+    }
+
+    /// The same where it spares others: coordinate 0 is theirs, too.
+    #[test]
+    fn a_row_is_solved_for_the_same_entry_while_that_is_large() {
+        let columns = [vec![0, 1], vec![0, 2], vec![0, 3]];
+        let mut saddle = KeptRowSaddle::with_columns(4, &columns).unwrap();
+        for (share, solved_for) in [(1.0, 1), (0.051, 1), (0.049, 0), (0.051, 0)] {
+            let first = [1.0, share];
+            let row = |k: usize| if k == 0 { &first[..] } else { &[1.0, 1.0] };
+            saddle.factor(row, &MASS).unwrap();
+            assert_eq!(saddle.solved_for()[0], solved_for, "{share}");
+        }
     }
 
     #[test]
