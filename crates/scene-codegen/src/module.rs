@@ -1,12 +1,12 @@
 //! The text of a module: constants, functions on arrays, the same for several states at once, and
 //! the interface to `dynamics`.
 
+mod docs;
 mod parameters;
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use dynamics::code::LEAVE;
 use model::record::Input;
 use model::{SpaceKind, System};
 use proc_macro2::TokenStream;
@@ -15,7 +15,7 @@ use symbolic::{Op, Printer, Scalar, Symbol};
 
 use crate::equations::Source;
 use crate::error::CodeError;
-use crate::functions::{Described, Function, Functions, RATE};
+use crate::functions::{Function, Functions, RATE};
 use crate::subject::Subject;
 use crate::support::SUPPORT;
 use crate::time;
@@ -161,7 +161,7 @@ pub(crate) fn of_subject(subject: &Subject<'_>, choices: &Choices) -> Result<Mod
         name: mechanism
             .name()
             .replace(|c: char| !c.is_alphanumeric(), "_"),
-        docs: docs(subject, &functions),
+        docs: docs::of(subject, &functions),
         items: text,
     })
 }
@@ -289,84 +289,6 @@ fn operations(functions: &Functions) -> Vec<String> {
     let list = functions.list.iter();
     list.map(|f| format!("{}: {}", f.signature.name, f.program.counts()))
         .collect()
-}
-
-/// What coordinates and velocities in space are.
-const IN_SPACE: [&str; 3] = [
-    "Coordinates of a body: its mass centre, then the quaternion (w, x, y, z) of its principal axes, of any length; velocities: that of the",
-    "mass centre along the axes of the ground, then the angular velocity along the principal axes. `dq` is a displacement along velocities: a",
-    "translation and a rotation vector.",
-];
-
-fn docs(subject: &Subject<'_>, functions: &Functions) -> Vec<String> {
-    let prepared = subject.prepared;
-    let layout = prepared.mechanism.layout();
-    let numbers = |rows: &[usize]| match rows {
-        [] => "none".to_owned(),
-        rows => {
-            let rows: Vec<String> = rows.iter().map(|i| (i + 1).to_string()).collect();
-            rows.join(", ")
-        }
-    };
-    let mut docs = vec![
-        format!(
-            "The mechanism `{}`: {} coordinates, {} velocities, {} holonomic and {} nonholonomic rows of rank {}.",
-            one_line(prepared.mechanism.name()),
-            layout.n_q,
-            layout.n_v,
-            layout.m,
-            layout.h,
-            prepared.decision.rank
-        ),
-        format!(
-            "Rows (from 1) that are dropped and only monitored: {}; that do not hold the position: {}.",
-            numbers(&prepared.decision.dropped),
-            numbers(&prepared.position_decision.dropped)
-        ),
-        match (&functions.view, prepared.mechanism.space()) {
-            (Described::Frame(body), _) => format!("Solved in the frame of the body `{body}`: it does not matter which way the whole points."),
-            (Described::Ground, SpaceKind::Space3) => "Solved with angular velocities along principal axes.".to_owned(),
-            (Described::JointAxes, _) => "Solved with angular velocities along the axes of bodies that carry others.".to_owned(),
-            (Described::GroundAxes, _) => "Solved with angular velocities along the axes of the ground.".to_owned(),
-            (Described::Ground, _) => "Solved in the frame of the ground.".to_owned(),
-        },
-        String::new(),
-        "Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that"
-            .to_owned(),
-        "divide return a health: the smallest divisor as a signed share of what it was at the states that the code was made for. Near 0 the"
-            .to_owned(),
-        "order of elimination has worn out, below 0 a divisor has passed zero.".to_owned(),
-        match functions.unhealthy {
-            0 => format!("At all {} states that it was made for the health is above {LEAVE}.", subject.states.len()),
-            n => format!(
-                "At {n} of the {} states that it was made for the health is below {LEAVE}: the motion comes near where a divisor vanishes, and needs other code there.",
-                subject.states.len()
-            ),
-        },
-    ];
-    if prepared.mechanism.space() == SpaceKind::Space3 {
-        docs.extend(IN_SPACE.map(str::to_owned));
-    }
-    if !subject.inputs.list.is_empty() {
-        docs.extend([
-            format!(
-                "Functions take {} numbers of the scene as `p`, see `PARAMETERS`; these keys of the scene are varied: {}.",
-                subject.inputs.list.len(),
-                one_line(&subject.inputs.keys.join(", "))
-            ),
-            "The health is that of the given numbers: it is the one of the states above, of which some are of motions with other numbers."
-                .to_owned(),
-        ]);
-    }
-    docs.extend(["", "| function | operations |", "| --- | --- |"].map(str::to_owned));
-    for f in &functions.list {
-        docs.push(format!(
-            "| `{}` | {} |",
-            f.signature.name,
-            f.program.counts()
-        ));
-    }
-    docs
 }
 
 /// Functions of time and of angles.

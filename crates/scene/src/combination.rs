@@ -309,7 +309,7 @@ impl<'a> Scanner<'a> {
         }))
     }
 
-    /// A number before `*`, or 1.
+    /// A number before `*`, with a sign of its own if it has one, or 1.
     fn factor(&mut self) -> Result<f64, CombinationError> {
         let rest = self.rest();
         let in_number = |c: char| c.is_ascii_digit() || "+-.eE".contains(c) || c.is_whitespace();
@@ -319,9 +319,6 @@ impl<'a> Scanner<'a> {
             return Ok(1.0);
         }
         let number = before.trim_end();
-        if number.is_empty() || !number.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
-            return Ok(1.0);
-        }
         let Ok(value) = number.parse::<f64>() else {
             return Ok(1.0);
         };
@@ -425,6 +422,11 @@ mod tests {
                 terms(&[(-1.0, "W3"), (-1.0, "W4-left"), (-2.0, "a.b")]),
             ),
             ("W4-W3", terms(&[(1.0, "W4"), (-1.0, "W3")])),
+            // A factor with a sign of its own.
+            (
+                "W3.N + -1*W4.N - -2e+1*W4.Fy",
+                terms(&[(1.0, "W3|N"), (-1.0, "W4|N"), (20.0, "W4|Fy")]),
+            ),
         ] {
             assert_eq!(read(text), expected, "{text}");
         }

@@ -17,7 +17,7 @@ pub enum JournalError {
     File(#[from] FileError),
     /// It belongs to another sweep.
     #[error(
-        "`{}` belongs to another sweep: {what} is {now}, and was {was}; take another directory, or remove it to begin again",
+        "`{}` belongs to another sweep: {what} is {now}, and was {was}; take another directory, or remove this one to begin again",
         path.display()
     )]
     Changed {

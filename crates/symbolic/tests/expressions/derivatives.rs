@@ -32,9 +32,11 @@ proptest! {
         prop_assume!(tolerance.is_finite());
         prop_assert!(ours.agrees(dual), "{ours:?} instead of {dual:?}");
         // The rest is a test of relative accuracy; too many ill-conditioned points make the test
-        // fail.
-        prop_assume!(tolerance <= RELATIVE * dual.value.abs() || dual.value == 0.0);
-        prop_assert!((ours.value - dual.value).abs() <= RELATIVE * dual.value.abs());
+        // fail. Where terms cancel to zero there is none, only rounding, which was judged above.
+        if dual.value != 0.0 {
+            prop_assume!(tolerance <= RELATIVE * dual.value.abs());
+            prop_assert!((ours.value - dual.value).abs() <= RELATIVE * dual.value.abs());
+        }
     }
 
     #[test]
