@@ -54,6 +54,24 @@ force = [{ name = "push", type = "point-force", body = "chassis", point = [0.0, 
 simulate = { t_end = 0.3, output_step = 0.05, rtol = 1e-8, atol = 1e-10 }
 "#;
 
+/// A parallelogram of two cranks that turns over and over: at its flat poses code is left,
+/// and used again behind them.
+const CRANKS: &str = r#"
+scene = { name = "cranks", space = "plane" }
+body = [
+    { name = "first", mass = 1.0, inertia = 0.02, position = [0.15, 0.2], angle = 0.927, angular_velocity = 4.0 },
+    { name = "second", mass = 1.0, inertia = 0.02, position = [1.15, 0.2], angle = 0.927, angular_velocity = 4.0 },
+    { name = "coupler", mass = 2.0, inertia = 0.2, position = [0.8, 0.4] },
+]
+joint = [
+    { name = "A", type = "revolute", bodies = ["ground", "first"], at = [0.0, 0.0] },
+    { name = "B", type = "revolute", bodies = ["ground", "second"], at = [1.0, 0.0] },
+    { name = "C", type = "revolute", bodies = ["first", "coupler"], at = [0.3, 0.4] },
+    { name = "D", type = "revolute", bodies = ["second", "coupler"], at = [1.3, 0.4] },
+]
+simulate = { t_end = 3.0, output_step = 0.1, rtol = 1e-8, atol = 1e-10 }
+"#;
+
 const CASES: [(&str, &[&str]); 4] = [
     (
         CART,
@@ -178,6 +196,34 @@ fn decisions_are_shared_where_constraints_are_the_same() {
             let is_shared = described.decides(&begun.study.prepared);
             assert_eq!(is_shared, case != 1, "run {run} of {vary:?}");
             assert_eq!(cells(&sharing.row(run)), cells(&deciding.row(run)));
+        }
+    }
+}
+
+/// Runs that leave their code at flat poses, of which the interpreter passes all, pass them, too;
+/// what is told of them is the motion, not how it was computed.
+#[test]
+fn runs_that_leave_their_code_end_as_interpreted_ones() {
+    let registry = Registry::standard();
+    let vary = &["body.coupler.mass=1:3:20", "body.first.mass=0.5:2:5"];
+    let on_code = sweep(&registry, CRANKS, vary);
+    assert!(on_code.evaluation().starts_with("on generated code"));
+    let interpreted = sweep(&registry, CRANKS, vary);
+    let _ = interpreted.code.set(Err("for the test".to_owned()));
+    let rows = made_together(&on_code);
+    for (row, other) in rows.iter().zip(made_together(&interpreted)) {
+        assert_eq!(
+            (row.status, row.error.as_str()),
+            (SweepStatus::Done, ""),
+            "run {}",
+            row.run
+        );
+        let (found, expected) = (row.motion.as_ref(), other.motion.as_ref());
+        let (found, expected) = (found.expect("moved"), expected.expect("moved"));
+        assert!(expected.events > 0);
+        assert_eq!(found.events, expected.events, "run {}", row.run);
+        for (a, b) in found.state.iter().zip(&expected.state) {
+            assert!((a - b).abs() <= 1e-6, "run {}: {a:e} {b:e}", row.run);
         }
     }
 }
