@@ -5,14 +5,16 @@
 //! | C  0  | | λ | = | γ |     M = diag(m) ≥ 0 (n), C of full row rank (r×n)
 //! ```
 //!
-//! Sparse LU with partial pivoting of the tall Cᵀ gives a null space basis N of C, the reduced mass
-//! `Nᵀ·M·N` (order k = n − r) is factored by Cholesky (as L·D·Lᵀ), and λ is computed with the same
-//! LU. M is never inverted, so masses may be zero as long as M is positive definite on ker C. Work
-//! and storage grow with the entries of C and of its factors, times k.
+//! Sparse LU of the tall Cᵀ, with pivots among the large entries of a row that spare the others,
+//! gives a null space basis N of C, the reduced mass `Nᵀ·M·N` (order k = n − r) is factored by
+//! Cholesky (as L·D·Lᵀ), and λ is computed with the same LU. M is never inverted, so masses may be
+//! zero as long as M is positive definite on ker C. Work and storage grow with the entries of C and
+//! of its factors, times k.
 //!
-//! This runs for every evaluation of a right-hand side: `factor` and `solve` do not allocate once
-//! storage for the entries of the factors is there. The rows must not be redundant:
-//! choose the kept ones with `decide` first (crate `rank`); no rank is decided here.
+//! This runs for every evaluation of a right-hand side: after the first factorisation, which plans
+//! the order of elimination, `factor` and `solve` do not allocate once storage for the entries of
+//! the factors is there. The rows must not be redundant: choose the kept ones with `decide` first
+//! (crate `rank`); no rank is decided here.
 //!
 //! Masses that differ by many powers of ten are called graded. For graded masses the pivot is the
 //! entry of the lightest coordinate among those that are not much smaller than the largest. So the
@@ -140,8 +142,8 @@ impl KeptRowSaddle {
         }
     }
 
-    /// Memory of a solver for rows with this pattern (bytes), at most: which entries it needs is
-    /// known when coordinates are chosen.
+    /// Memory of a solver for these rows (bytes), in the order that their values plan, whatever
+    /// coordinates are chosen.
     #[must_use]
     pub fn bytes(c: &SparseMatrix) -> usize {
         let k = c.ncols().saturating_sub(c.nrows());
