@@ -138,6 +138,23 @@ impl<T: Copy> Block<T> {
     }
 }
 
+impl<T: Copy> Block<T> {
+    /// Combines each entry with that of a block of the same shape, in place.
+    ///
+    /// # Panics
+    /// If the shapes differ.
+    pub(crate) fn update(&mut self, other: &Self, f: impl Fn(T, T) -> T) {
+        assert_eq!(
+            (self.rows, self.columns),
+            (other.rows, other.columns),
+            "blocks entry by entry need equal shapes"
+        );
+        for (a, &b) in self.entries.iter_mut().zip(&other.entries) {
+            *a = f(*a, b);
+        }
+    }
+}
+
 impl<T: Ring> Block<T> {
     /// The product with a vector.
     #[must_use]
@@ -163,13 +180,7 @@ impl Block {
     /// The largest magnitude of an entry; NaN if there is one.
     #[must_use]
     pub(crate) fn largest(&self) -> f64 {
-        self.entries.iter().fold(0.0, |m: f64, e| {
-            if m.is_nan() || e.is_nan() {
-                f64::NAN
-            } else {
-                m.max(e.abs())
-            }
-        })
+        largest(self.entries.iter().copied())
     }
 
     /// The Frobenius norm.
@@ -196,11 +207,23 @@ impl Block {
     #[must_use]
     pub(crate) fn difference(&self, other: &Self) -> f64 {
         if (self.rows, self.columns) == (other.rows, other.columns) {
-            self.zip(other, |a, b| a - b).largest()
+            let differences = self.entries.iter().zip(&other.entries);
+            largest(differences.map(|(a, b)| a - b))
         } else {
             f64::NAN
         }
     }
+}
+
+/// The largest magnitude; NaN if there is one.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |m: f64, e| {
+        if m.is_nan() || e.is_nan() {
+            f64::NAN
+        } else {
+            m.max(e.abs())
+        }
+    })
 }
 
 #[cfg(test)]

@@ -8,19 +8,22 @@ use crate::bodies::Bodies;
 use crate::case::{Case, Kind, Motion};
 use crate::derivative::{Curve, Differences, Differentiate, DualNumbers};
 use crate::failure::{Claim, Failure, Oracle, Property, fact};
-use crate::number::Number;
+use crate::number::KernelNumber;
 use crate::state::Along;
 use crate::subject::{By, Derivative, Subject};
 
 /// Checks all cases of one definition.
-pub(crate) fn check<S: Subject>(seed: u64) -> Result<(), Failure> {
-    let mut patterns = S::patterns()?;
+pub(crate) fn check<S: Subject>(of: S, seed: u64) -> Result<(), Failure> {
+    let name = of.common().name;
+    let mut patterns = of.patterns()?;
     let mut seen = S::Seen::default();
     let (mut cases, mut undefined) = (0, 0);
-    for case in Case::all(seed, &S::COMMON, S::ROWS.len(), S::TURNING, S::TURNS) {
-        let (subject, case) = assembled::<S>(&case)?;
+    let n_rows = of.rows().len();
+    for case in Case::all(seed, of.common(), n_rows, of.turning(), of.turns()) {
+        let (made, case) = assembled(of, &case)?;
         let check = Check {
-            subject: &subject,
+            of,
+            made: &made,
             case: &case,
         };
         cases += 1;
@@ -43,12 +46,12 @@ pub(crate) fn check<S: Subject>(seed: u64) -> Result<(), Failure> {
     if f64::from(undefined) > MOST_UNDEFINED * f64::from(cases) {
         let entry = format!("at {undefined} of {cases} poses there is none");
         let facts = [0.0, 1.0];
-        return Err(fact(S::COMMON.name, Property::Defined, entry, facts, None));
+        return Err(fact(name, Property::Defined, entry, facts, None));
     }
     for (_, pattern) in &patterns {
-        pattern.all_alive(S::COMMON.name)?;
+        pattern.all_alive(name)?;
     }
-    S::facts(&seen)
+    of.facts(&seen)
 }
 
 /// Share of the cases, at most, in which a law may have no value. Rotations are beyond 3 rad in a
@@ -58,9 +61,12 @@ const MOST_UNDEFINED: f64 = 0.25;
 /// Starts tried for one case before its requirements count as never met.
 const STARTS: u64 = 100;
 
-/// The subject of a case, with a start where its requirements hold.
-fn assembled<S: Subject>(case: &Case<S::Space>) -> Result<(S, Case<S::Space>), Failure> {
-    let spec = &S::COMMON;
+/// The definition made for a case, with a start where its requirements hold.
+fn assembled<S: Subject>(
+    of: S,
+    case: &Case<S::Space>,
+) -> Result<(S::Made, Case<S::Space>), Failure> {
+    let spec = of.common();
     let fail = |property, entry| {
         fact(
             spec.name,
@@ -70,16 +76,16 @@ fn assembled<S: Subject>(case: &Case<S::Space>) -> Result<(S, Case<S::Space>), F
             Some(case as &dyn std::fmt::Display),
         )
     };
-    let mut subject =
-        S::from_arguments(&case.arguments).map_err(|e| fail(Property::Arguments, e.to_string()))?;
+    let made = of.make(&case.arguments);
+    let mut made = made.map_err(|e| fail(Property::Arguments, e.to_string()))?;
     let mut case = case.clone();
     for attempt in 0..STARTS {
-        let definition = subject.definition();
+        let definition = S::definition(&mut made);
         definition.initialise(&case.start);
         // One number beyond the requirements: it must hold too.
         let mut all = 0..=spec.requirements.len();
         if all.all(|k| definition.requirement(k, &case.start)) {
-            return Ok((subject, case));
+            return Ok((made, case));
         }
         case = case.with_another_start(attempt);
     }
@@ -89,7 +95,8 @@ fn assembled<S: Subject>(case: &Case<S::Space>) -> Result<(S, Case<S::Space>), F
 
 /// One case of one definition.
 pub(crate) struct Check<'a, S: Subject> {
-    pub(crate) subject: &'a S,
+    pub(crate) of: S,
+    pub(crate) made: &'a S::Made,
     pub(crate) case: &'a Case<S::Space>,
 }
 
@@ -102,9 +109,10 @@ struct Path<'a, S: Subject> {
 }
 
 impl<S: Subject> Curve for Path<'_, S> {
-    fn at<D: Number>(&self, tau: D) -> Block<D> {
-        let state = self.along.state(self.check.case, self.motion, tau);
-        self.check.subject.kernel(self.kernel, &state)
+    fn at<D: KernelNumber>(&self, tau: D) -> Block<D> {
+        let Check { of, made, case } = *self.check;
+        let state = self.along.state(case, self.motion, tau);
+        of.kernel(made, self.kernel, &state)
     }
 }
 
@@ -112,7 +120,7 @@ impl<S: Subject> Check<'_, S> {
     /// A kernel at the state itself.
     pub(crate) fn at(&self, kernel: S::Kernel, motion: &Motion) -> Block {
         let state = Along::Time.state(self.case, motion, 0.0);
-        self.subject.final_kernel(kernel, &state)
+        self.of.final_kernel(self.made, kernel, &state)
     }
 
     /// The blocks of all motions, side by side.
@@ -160,7 +168,7 @@ impl<S: Subject> Check<'_, S> {
     ) -> Block {
         let along_each = |along: fn(usize) -> Along| {
             let column = |c| O::first(&self.curve(of, along(c), motion));
-            Block::beside(&(0..S::columns()).map(column).collect::<Vec<_>>())
+            Block::beside(&(0..self.of.columns()).map(column).collect::<Vec<_>>())
         };
         match by {
             By::Poses => along_each(Along::Pose),
@@ -173,12 +181,13 @@ impl<S: Subject> Check<'_, S> {
 
     /// Norms are the same with all bodies moved as one.
     fn rigid_motion(&self) -> Result<(), Failure> {
-        if self.case.kind != Kind::Ordinary || !is_internal::<S>() {
+        if self.case.kind != Kind::Ordinary || !is_internal(self.of) {
             return Ok(());
         }
-        let (subject, case) = assembled::<S>(&self.case.moved())?;
+        let (made, case) = assembled(self.of, &self.case.moved())?;
         let moved = Check {
-            subject: &subject,
+            of: self.of,
+            made: &made,
             case: &case,
         };
         let oracle = Oracle::identity(self.scale());
@@ -235,7 +244,7 @@ impl<S: Subject> Check<'_, S> {
             found,
             expected,
         };
-        self.decide(&claim, |row, column| entry::<S>(property, row, column))
+        self.decide(&claim, |row, column| entry(self.of, property, row, column))
     }
 
     /// Returns the worst entry if the claim does not hold, named by `entry`.
@@ -244,20 +253,22 @@ impl<S: Subject> Check<'_, S> {
         claim: &Claim<'_>,
         entry: impl Fn(usize, usize) -> String,
     ) -> Result<(), Failure> {
-        claim.decide(S::COMMON.name, self.case, entry)
+        claim.decide(self.of.common().name, self.case, entry)
     }
 
     /// A failure of a fact of this case.
     pub(crate) fn fact(&self, property: Property, entry: String, facts: [f64; 2]) -> Failure {
-        fact(S::COMMON.name, property, entry, facts, Some(self.case))
+        let name = self.of.common().name;
+        fact(name, property, entry, facts, Some(self.case))
     }
 }
 
 /// Whether a definition relates bodies to each other, by what its spec says.
-pub(crate) fn is_internal<S: Subject>() -> bool {
+pub(crate) fn is_internal<S: Subject>(of: S) -> bool {
+    let common = of.common();
     let on_ground =
         |p: &joints::spec::Parameter| matches!(p.shape, Shape::GroundLine | Shape::GroundPlane);
-    S::COMMON.slots.len() > 1 && !S::COMMON.parameters.iter().any(on_ground)
+    common.slots.len() > 1 && !common.parameters.iter().any(on_ground)
 }
 
 /// Force and moment about the global origin of a generalised force on all slots.
@@ -276,14 +287,15 @@ pub(crate) fn n_dof<S: Subject>() -> usize {
 }
 
 /// An entry of a property in words; blocks of several motions stand side by side.
-pub(crate) fn entry<S: Subject>(property: Property, row: usize, column: usize) -> String {
-    let n = S::columns();
-    let row_name = |row: usize| match S::ROWS.get(row) {
+pub(crate) fn entry<S: Subject>(of: S, property: Property, row: usize, column: usize) -> String {
+    let n = of.columns();
+    let row_name = |row: usize| match of.rows().get(row) {
         Some(r) => format!("row `{}`", r.name),
         None => format!("motion {row}"),
     };
     let dof = |column: usize| {
-        let slot = S::COMMON.slots[column / n_dof::<S>() % S::COMMON.slots.len()];
+        let slots = of.common().slots;
+        let slot = slots[column / n_dof::<S>() % slots.len()];
         format!("{slot}.{}", S::Space::DOFS[column % n_dof::<S>()])
     };
     let of_dof = || format!("column {}, motion {}", dof(column), column / n);

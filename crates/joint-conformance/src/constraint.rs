@@ -4,23 +4,88 @@ mod data;
 mod identities;
 
 use std::collections::BTreeSet;
-use std::marker::PhantomData;
 
-use joints::spec::{Row, Spec};
+use joints::spec::{ConstraintSpec, Row, Spec};
 use joints::{Argument, ArgumentError, Constraint, Definition, Derivatives, Element};
 
 use crate::block::Block;
 use crate::bodies::Bodies;
 use crate::check::{Check, entry};
 use crate::failure::{DUAL_TOLERANCE, Failure, Property, fact};
-use crate::number::Number;
+use crate::number::{Dual, KernelNumber};
 use crate::pattern::Pattern;
 use crate::state::{Along, State};
 use crate::subject::{By, Derivative, Subject, dense, sparse};
 use identities::phi_at_start;
 
-/// A constraint as a subject of the harness.
-pub(crate) struct OfConstraint<K, S>(K, PhantomData<S>);
+/// A constraint of any definition.
+pub(crate) trait AnyConstraint<S: Bodies> {
+    /// Its kernels for plain numbers, with further derivatives.
+    fn plain(&self) -> &dyn Derivatives<f64, S>;
+
+    /// Its kernels for dual numbers.
+    fn dual(&self) -> &dyn Element<Dual, S>;
+
+    /// The same with these numbers in place of its own; see [`Definition::set_data`].
+    fn with_data(&self, numbers: &[f64]) -> Box<dyn AnyConstraint<S>>;
+
+    /// The definition of it.
+    fn definition(&mut self) -> &mut dyn Definition<S>;
+}
+
+impl<K: Constraint<S>, S: Bodies> AnyConstraint<S> for K {
+    fn plain(&self) -> &dyn Derivatives<f64, S> {
+        self
+    }
+
+    fn dual(&self) -> &dyn Element<Dual, S> {
+        self.element()
+    }
+
+    fn with_data(&self, numbers: &[f64]) -> Box<dyn AnyConstraint<S>> {
+        let mut other = self.clone();
+        other.set_data(numbers);
+        Box::new(other)
+    }
+
+    fn definition(&mut self) -> &mut dyn Definition<S> {
+        self
+    }
+}
+
+/// A definition of constraints as a subject of the harness.
+pub(crate) struct OfConstraint<S: Bodies> {
+    spec: &'static ConstraintSpec,
+    make: Make<S>,
+}
+
+type Make<S> = fn(&[Argument]) -> Result<Box<dyn AnyConstraint<S>>, ArgumentError>;
+
+impl<S: Bodies> OfConstraint<S> {
+    /// The definition K.
+    pub(crate) fn new<K: Constraint<S>>() -> Self {
+        Self {
+            spec: const { &K::SPEC },
+            make: |arguments| Ok(Box::new(K::from_arguments(arguments)?)),
+        }
+    }
+
+    /// Row and column of each entry of C.
+    fn c_pattern(self) -> Vec<[usize; 2]> {
+        let entries = self.spec.c.iter();
+        entries
+            .map(|e| [e.row, S::N_DOF * e.slot + e.dof])
+            .collect()
+    }
+}
+
+impl<S: Bodies> Clone for OfConstraint<S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Bodies> Copy for OfConstraint<S> {}
 
 /// Kernels of a constraint, and what is made of them.
 #[derive(Clone, Copy)]
@@ -78,15 +143,12 @@ pub(crate) struct Seen {
     depends_on_time: bool,
 }
 
-impl<K: Constraint<S>, S: Bodies> Subject for OfConstraint<K, S> {
+impl<S: Bodies> Subject for OfConstraint<S> {
     type Space = S;
+    type Made = Box<dyn AnyConstraint<S>>;
     type Kernel = Kernel;
     type Seen = Seen;
 
-    const COMMON: Spec = K::SPEC.common;
-    const ROWS: &'static [Row] = K::SPEC.rows;
-    const TURNING: bool = K::SPEC.turning;
-    const TURNS: usize = K::SPEC.turns;
     const SLOPE: Kernel = Kernel::C;
     const INVARIANTS: &'static [(Kernel, &'static str)] = &[
         (Kernel::Phi, "Φ"),
@@ -96,85 +158,109 @@ impl<K: Constraint<S>, S: Bodies> Subject for OfConstraint<K, S> {
         (Kernel::Component, "the component"),
     ];
 
-    fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
-        K::from_arguments(arguments).map(|k| Self(k, PhantomData))
+    fn common(self) -> &'static Spec {
+        &self.spec.common
     }
 
-    fn definition(&mut self) -> &mut dyn Definition<S> {
-        &mut self.0
+    fn rows(self) -> &'static [Row] {
+        self.spec.rows
     }
 
-    fn kernel<D: Number>(&self, kernel: Kernel, at: &State<S, D>) -> Block<D> {
-        let k = self.0.element::<D>();
+    fn turning(self) -> bool {
+        self.spec.turning
+    }
+
+    fn turns(self) -> usize {
+        self.spec.turns
+    }
+
+    fn make(self, arguments: &[Argument]) -> Result<Self::Made, ArgumentError> {
+        (self.make)(arguments)
+    }
+
+    fn definition(made: &mut Self::Made) -> &mut dyn Definition<S> {
+        made.as_mut().definition()
+    }
+
+    fn kernel<D: KernelNumber>(
+        self,
+        made: &Self::Made,
+        kernel: Kernel,
+        at: &State<S, D>,
+    ) -> Block<D> {
+        let (k, spec) = (D::of_constraint(made.as_ref()), self.spec);
+        let of = |kernel| self.kernel(made, kernel, at);
         let State { x, f, lambda, .. } = at;
         let v = &State::<S, D>::twists(&at.v);
-        let (m, n) = (Self::ROWS.len(), Self::columns());
+        let (m, n) = (spec.rows.len(), self.columns());
         match kernel {
-            Kernel::Phi => dense(K::SPEC.holonomic, |out| k.phi(x, f, out)),
-            Kernel::C => sparse([m, n], &c_pattern::<K, S>(), |out| c_entries(k, x, f, out)),
-            Kernel::B if !K::SPEC.rheonomic => dense(m, |out| {
+            Kernel::Phi => dense(spec.holonomic, |out| k.phi(x, f, out)),
+            Kernel::C => sparse([m, n], &self.c_pattern(), |out| c_entries(k, x, f, out)),
+            Kernel::B if !spec.rheonomic => dense(m, |out| {
                 out.fill(D::from(0.0));
                 k.b(x, f, out);
             }),
             Kernel::B => dense(m, |out| k.b(x, f, out)),
             Kernel::Velocity => {
-                let velocity = self.kernel(Kernel::C, at).times(&at.v);
-                velocity.zip(&self.kernel(Kernel::B, at), |e, b| e - b)
+                let mut velocity = of(Kernel::C).times(&at.v);
+                velocity.update(&of(Kernel::B), |e, b| e - b);
+                velocity
             }
             Kernel::Gamma => dense(m, |out| k.gamma(x, v, f, out)),
-            Kernel::Force => self.kernel(Kernel::C, at).transpose_times(lambda),
+            Kernel::Force => of(Kernel::C).transpose_times(lambda),
             Kernel::Residual => {
-                let inertia = self.kernel(Kernel::C, at).times(&at.a);
-                inertia.zip(&self.kernel(Kernel::Gamma, at), |e, g| e - g)
+                let mut residual = of(Kernel::C).times(&at.a);
+                residual.update(&of(Kernel::Gamma), |e, g| e - g);
+                residual
             }
-            Kernel::Wrench => sparse([S::N_DOF, m], K::SPEC.wrench, |out| k.wrench(x, f, out)),
+            Kernel::Wrench => sparse([S::N_DOF, m], spec.wrench, |out| k.wrench(x, f, out)),
             Kernel::Component => {
-                let rows = K::SPEC.component.map_or(0, |_| m);
+                let rows = spec.component.map_or(0, |_| m);
                 dense(rows, |out| k.component(x, f, out))
             }
             Kernel::Place => Block::column(k.place(x).as_ref().to_vec()),
-            Kernel::DPhiDp => dense(K::SPEC.n_data(), |out| k.d_phi_dp(x, f, lambda, out)),
+            Kernel::DPhiDp => dense(spec.n_data(), |out| k.d_phi_dp(x, f, lambda, out)),
             _ => unreachable!("a kernel that is not differentiated"),
         }
     }
 
-    fn final_kernel(&self, kernel: Kernel, at: &State<S, f64>) -> Block {
-        let k: &dyn Derivatives<f64, S> = &self.0;
+    fn final_kernel(self, made: &Self::Made, kernel: Kernel, at: &State<S, f64>) -> Block {
+        let (k, spec) = (made.plain(), self.spec);
         let State { x, f, lambda, .. } = at;
         let (v, a) = (
             &State::<S, f64>::twists(&at.v),
             &State::<S, f64>::twists(&at.a),
         );
-        let (m, n) = (Self::ROWS.len(), Self::columns());
+        let (m, n) = (spec.rows.len(), self.columns());
         match kernel {
-            Kernel::DForceDx => sparse([n, n], K::SPEC.d_force_dx, |out| {
+            Kernel::DForceDx => sparse([n, n], spec.d_force_dx, |out| {
                 k.d_force_dx(x, f, lambda, out);
             }),
-            Kernel::DResidualDx => sparse([m, n], K::SPEC.d_residual_dx, |out| {
+            Kernel::DResidualDx => sparse([m, n], spec.d_residual_dx, |out| {
                 k.d_residual_dx(x, v, a, f, out);
             }),
-            Kernel::DGammaDv => sparse([m, n], K::SPEC.d_gamma_dv, |out| {
+            Kernel::DGammaDv => sparse([m, n], spec.d_gamma_dv, |out| {
                 k.d_gamma_dv(x, v, f, out);
             }),
-            Kernel::DVelocityDx => sparse([m, n], K::SPEC.d_velocity_dx, |out| {
+            Kernel::DVelocityDx => sparse([m, n], spec.d_velocity_dx, |out| {
                 k.d_velocity_dx(x, v, f, out);
             }),
-            Kernel::DResidualDp => dense(K::SPEC.n_data(), |out| {
+            Kernel::DResidualDp => dense(spec.n_data(), |out| {
                 k.d_residual_dp(x, v, a, f, lambda, out);
             }),
-            _ => self.kernel(kernel, at),
+            _ => self.kernel(made, kernel, at),
         }
     }
 
-    fn patterns() -> Result<Vec<(Kernel, Pattern)>, Failure> {
+    fn patterns(self) -> Result<Vec<(Kernel, Pattern)>, Failure> {
         use Kernel as W;
-        let (m, n, spec) = (Self::ROWS.len(), Self::columns(), &K::SPEC);
+        let (m, n, spec) = (self.spec.rows.len(), self.columns(), self.spec);
         let of = |kernel, name, shape, entries: &[[usize; 2]]| {
             let pattern = Pattern::new(spec.common.name, name, shape, entries.to_vec())?;
             Ok((kernel, pattern))
         };
         let patterns = [
-            of(W::C, "C", [m, n], &c_pattern::<K, S>()),
+            of(W::C, "C", [m, n], &self.c_pattern()),
             of(W::Wrench, "the wrench map", [S::N_DOF, m], spec.wrench),
             of(W::DForceDx, "∂(Cᵀλ)/∂x", [n, n], spec.d_force_dx),
             of(W::DResidualDx, "∂(C·a − Γ)/∂x", [m, n], spec.d_residual_dx),
@@ -190,26 +276,26 @@ impl<K: Constraint<S>, S: Bodies> Subject for OfConstraint<K, S> {
 
     /// Kernels write exactly the entries that are theirs.
     fn before(check: &Check<'_, Self>) -> Result<(), Failure> {
-        let k = &check.subject.0;
+        let (k, spec) = (check.made.plain(), check.of.spec);
         let at = Along::Time.state(check.case, &check.case.motions[0], 0.0);
         let (x, f) = (&at.x, &at.f);
         let unwritten = |n| vec![f64::NAN; n];
-        let (mut constant, mut varying) = (unwritten(K::SPEC.c.len()), unwritten(K::SPEC.c.len()));
-        let mut b = unwritten(Self::ROWS.len());
+        let (mut constant, mut varying) = (unwritten(spec.c.len()), unwritten(spec.c.len()));
+        let mut b = unwritten(spec.rows.len());
         k.c_constant(&mut constant);
         k.c(x, f, &mut varying);
         k.b(x, f, &mut b);
-        let entries = K::SPEC.c.iter().zip(constant.iter().zip(&varying));
+        let entries = spec.c.iter().zip(constant.iter().zip(&varying));
         let c = entries.flat_map(|(e, (c, v))| {
-            let name = entry::<Self>(Property::C, e.row, S::N_DOF * e.slot + e.dof);
+            let name = entry(check.of, Property::C, e.row, S::N_DOF * e.slot + e.dof);
             [
                 (format!("c_constant, {name}"), !c.is_nan(), e.constant),
                 (format!("c, {name}"), !v.is_nan(), !e.constant),
             ]
         });
         let b = b.iter().enumerate().map(|(row, b)| {
-            let name = format!("b, {}", entry::<Self>(Property::B, row, 0));
-            (name, !b.is_nan(), K::SPEC.rheonomic)
+            let name = format!("b, {}", entry(check.of, Property::B, row, 0));
+            (name, !b.is_nan(), spec.rheonomic)
         });
         match c.chain(b).find(|(_, written, due)| written != due) {
             Some((entry, written, due)) => {
@@ -237,35 +323,28 @@ impl<K: Constraint<S>, S: Bodies> Subject for OfConstraint<K, S> {
         seen.restricting.extend(rows);
     }
 
-    fn facts(seen: &Seen) -> Result<(), Failure> {
-        if seen.depends_on_time != K::SPEC.rheonomic {
+    fn facts(self, seen: &Seen) -> Result<(), Failure> {
+        let spec = self.spec;
+        if seen.depends_on_time != spec.rheonomic {
             let entry = "`rheonomic` of the spec against b".to_owned();
-            let facts = [K::SPEC.rheonomic, seen.depends_on_time].map(f64::from);
-            return Err(fact(Self::COMMON.name, Property::B, entry, facts, None));
+            let facts = [spec.rheonomic, seen.depends_on_time].map(f64::from);
+            return Err(fact(spec.common.name, Property::B, entry, facts, None));
         }
         let idle = |(n, row): &(usize, &Row)| row.restricts_start && !seen.restricting.contains(n);
-        let holonomic = Self::ROWS.iter().take(K::SPEC.holonomic);
+        let holonomic = spec.rows.iter().take(spec.holonomic);
         match holonomic.enumerate().find(idle) {
             Some((_, row)) => {
                 let entry = format!("row `{}`, zero at every start", row.name);
                 let facts = [0.0, 1.0];
-                Err(fact(Self::COMMON.name, Property::Start, entry, facts, None))
+                Err(fact(spec.common.name, Property::Start, entry, facts, None))
             }
             None => Ok(()),
         }
     }
 }
 
-/// Row and column of each entry of C.
-fn c_pattern<K: Constraint<S>, S: Bodies>() -> Vec<[usize; 2]> {
-    let entries = K::SPEC.c.iter();
-    entries
-        .map(|e| [e.row, S::N_DOF * e.slot + e.dof])
-        .collect()
-}
-
 /// Entries of C in the order of the pattern, constant and varying ones.
-fn c_entries<S: Bodies, D: Number>(
+fn c_entries<S: Bodies, D: KernelNumber>(
     k: &dyn Element<D, S>,
     x: &[S::Pose<D>],
     f: &[[D; 3]],

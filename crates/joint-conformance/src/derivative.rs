@@ -1,15 +1,15 @@
 //! Derivatives along a curve, by two methods independent of the kernels: dual numbers, and central
 //! differences with Richardson extrapolation.
 
-use num_dual::{Dual2_64, Dual64};
+use num_dual::Dual2_64;
 
 use crate::block::Block;
-use crate::number::{Dual, Number};
+use crate::number::{Dual, KernelNumber};
 
 /// A block that depends on one number τ; its derivatives are wanted at τ = 0.
 pub(crate) trait Curve {
     /// The block at τ.
-    fn at<D: Number>(&self, tau: D) -> Block<D>;
+    fn at<D: KernelNumber>(&self, tau: D) -> Block<D>;
 }
 
 /// A way to differentiate.
@@ -25,7 +25,8 @@ pub(crate) struct DualNumbers;
 
 impl Differentiate for DualNumbers {
     fn first(curve: &impl Curve) -> Block {
-        curve.at(Dual(Dual64::new(0.0, 1.0))).map(|e| e.0.eps)
+        let tau = Dual(Dual2_64::new(0.0, 1.0, 0.0));
+        curve.at(tau).map(|e| e.0.v1)
     }
 
     fn second(curve: &impl Curve) -> Block {
@@ -57,9 +58,12 @@ impl Differentiate for Differences {
     fn second(curve: &impl Curve) -> Block {
         let middle = curve.at(0.0);
         extrapolate(SECOND_STEPS, |h| {
-            let sum = curve.at(h).zip(&middle, |a, m| a - m);
-            let sum = sum.zip(&curve.at(-h).zip(&middle, |b, m| b - m), |a, b| a + b);
-            sum.map(|d| d / (h * h))
+            let mut sum = curve.at(h);
+            sum.update(&middle, |a, m| a - m);
+            let mut before = curve.at(-h);
+            before.update(&middle, |b, m| b - m);
+            sum.update(&before, |a, b| (a + b) / (h * h));
+            sum
         })
     }
 }
@@ -67,8 +71,9 @@ impl Differentiate for Differences {
 /// The first derivative at 0 of a block of one plain number.
 pub(crate) fn by_differences(block: impl Fn(f64) -> Block) -> Block {
     extrapolate(FIRST_STEPS, |h| {
-        let difference = block(h).zip(&block(-h), |a, b| a - b);
-        difference.map(|d| d / (2.0 * h))
+        let mut difference = block(h);
+        difference.update(&block(-h), |a, b| (a - b) / (2.0 * h));
+        difference
     })
 }
 
@@ -82,8 +87,7 @@ fn extrapolate(steps: i32, difference: impl Fn(f64) -> Block) -> Block {
             let gain = 4f64.powi(i32::try_from(order).unwrap_or(0)) - 1.0;
             let (fine, coarse) = (&row[order - 1], &previous[order - 1]);
             let next = fine.zip(coarse, |f, c| f + (f - c) / gain);
-            let change = next.zip(fine, |a, b| a - b).largest();
-            let change = change.max(next.zip(coarse, |a, b| a - b).largest());
+            let change = next.difference(fine).max(next.difference(coarse));
             if change < least {
                 (best, least) = (next.clone(), change);
             }
@@ -101,7 +105,7 @@ mod tests {
     /// `sin(1 + τ)`
     struct Sine;
     impl Curve for Sine {
-        fn at<D: Number>(&self, tau: D) -> Block<D> {
+        fn at<D: KernelNumber>(&self, tau: D) -> Block<D> {
             Block::column(vec![(D::from(1.0) + tau).sin_cos().0])
         }
     }

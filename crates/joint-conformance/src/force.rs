@@ -1,22 +1,80 @@
 //! The kernels of a force, and the properties that forces alone have.
 
-use joints::spec::{Row, Spec};
-use std::marker::PhantomData;
-
-use joints::{Argument, ArgumentError, Definition, Force};
+use joints::spec::{ForceSpec, Spec};
+use joints::{Argument, ArgumentError, Definition, Force, ForceElement};
 
 use crate::block::{Block, dot};
 use crate::bodies::Bodies;
 use crate::case::Motion;
 use crate::check::{Check, is_internal};
 use crate::failure::{Claim, Failure, Oracle, Property, fact};
-use crate::number::{Number, Traced};
+use crate::number::{Dual, KernelNumber, Number, Traced};
 use crate::pattern::Pattern;
 use crate::state::{Along, State};
 use crate::subject::{By, Derivative, Subject, sparse};
 
-/// A force as a subject of the harness.
-pub(crate) struct OfForce<K, S>(K, PhantomData<S>);
+/// A force of any definition.
+pub(crate) trait AnyForce<S: Bodies> {
+    /// Its kernels for plain numbers.
+    fn plain(&self) -> &dyn ForceElement<f64, S>;
+
+    /// Its kernels for dual numbers.
+    fn dual(&self) -> &dyn ForceElement<Dual, S>;
+
+    /// Its kernels for numbers that tell where it has no value.
+    fn traced(&self) -> &dyn ForceElement<Traced, S>;
+
+    /// The definition of it.
+    fn definition(&mut self) -> &mut dyn Definition<S>;
+}
+
+impl<K: Force<S>, S: Bodies> AnyForce<S> for K {
+    fn plain(&self) -> &dyn ForceElement<f64, S> {
+        self
+    }
+
+    fn dual(&self) -> &dyn ForceElement<Dual, S> {
+        self.element()
+    }
+
+    fn traced(&self) -> &dyn ForceElement<Traced, S> {
+        self.element()
+    }
+
+    fn definition(&mut self) -> &mut dyn Definition<S> {
+        self
+    }
+}
+
+/// A definition of forces as a subject of the harness.
+pub(crate) struct OfForce<S: Bodies> {
+    spec: &'static ForceSpec,
+    make: Make<S>,
+}
+
+type Make<S> = fn(&[Argument]) -> Result<Box<dyn AnyForce<S>>, ArgumentError>;
+
+impl<S: Bodies> OfForce<S> {
+    /// The definition K.
+    pub(crate) fn new<K: Force<S>>() -> Self {
+        Self {
+            spec: const { &K::SPEC },
+            make: |arguments| Ok(Box::new(K::from_arguments(arguments)?)),
+        }
+    }
+
+    fn q_pattern(self) -> Vec<[usize; 2]> {
+        self.spec.q.iter().map(|&row| [row, 0]).collect()
+    }
+}
+
+impl<S: Bodies> Clone for OfForce<S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Bodies> Copy for OfForce<S> {}
 
 /// Kernels of a force.
 #[derive(Clone, Copy)]
@@ -31,39 +89,47 @@ const DERIVATIVES: [Derivative<Kernel>; 2] = [
     Derivative::new(Property::DqDv, Kernel::DqDv, 1.0, Kernel::Q, By::Twists),
 ];
 
-impl<K: Force<S>, S: Bodies> Subject for OfForce<K, S> {
+impl<S: Bodies> Subject for OfForce<S> {
     type Space = S;
+    type Made = Box<dyn AnyForce<S>>;
     type Kernel = Kernel;
     type Seen = ();
 
-    const COMMON: Spec = K::SPEC.common;
-    const ROWS: &'static [Row] = &[];
     const SLOPE: Kernel = Kernel::DqDx;
     const INVARIANTS: &'static [(Kernel, &'static str)] = &[(Kernel::Q, "Q")];
 
-    fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
-        K::from_arguments(arguments).map(|k| Self(k, PhantomData))
+    fn common(self) -> &'static Spec {
+        &self.spec.common
     }
 
-    fn definition(&mut self) -> &mut dyn Definition<S> {
-        &mut self.0
+    fn make(self, arguments: &[Argument]) -> Result<Self::Made, ArgumentError> {
+        (self.make)(arguments)
     }
 
-    fn kernel<D: Number>(&self, kernel: Kernel, at: &State<S, D>) -> Block<D> {
-        let k = self.0.element::<D>();
+    fn definition(made: &mut Self::Made) -> &mut dyn Definition<S> {
+        made.as_mut().definition()
+    }
+
+    fn kernel<D: KernelNumber>(
+        self,
+        made: &Self::Made,
+        kernel: Kernel,
+        at: &State<S, D>,
+    ) -> Block<D> {
+        let k = D::of_force(made.as_ref());
         let State { x, v, f, .. } = at;
         let v = &State::<S, D>::twists(v);
-        let n = Self::columns();
+        let n = self.columns();
         match kernel {
-            Kernel::Q => sparse([n, 1], &q_pattern::<K, S>(), |out| k.q(x, v, f, out)),
-            Kernel::DqDx => sparse([n, n], K::SPEC.dq_dx, |out| k.dq_dx(x, v, f, out)),
-            Kernel::DqDv => sparse([n, n], K::SPEC.dq_dv, |out| k.dq_dv(x, v, f, out)),
+            Kernel::Q => self.q(k, at),
+            Kernel::DqDx => sparse([n, n], self.spec.dq_dx, |out| k.dq_dx(x, v, f, out)),
+            Kernel::DqDv => sparse([n, n], self.spec.dq_dv, |out| k.dq_dv(x, v, f, out)),
         }
     }
 
-    fn patterns() -> Result<Vec<(Kernel, Pattern)>, Failure> {
-        let (n, name, spec) = (Self::columns(), Self::COMMON.name, &K::SPEC);
-        let q = Pattern::new(name, "Q", [n, 1], q_pattern::<K, S>())?;
+    fn patterns(self) -> Result<Vec<(Kernel, Pattern)>, Failure> {
+        let (n, name, spec) = (self.columns(), self.common().name, self.spec);
+        let q = Pattern::new(name, "Q", [n, 1], self.q_pattern())?;
         let dq_dx = Pattern::new(name, "∂Q/∂x", [n, n], spec.dq_dx.to_vec())?;
         let dq_dv = Pattern::new(name, "∂Q/∂v", [n, n], spec.dq_dv.to_vec())?;
         Ok(vec![
@@ -81,14 +147,14 @@ impl<K: Force<S>, S: Bodies> Subject for OfForce<K, S> {
     fn is_defined(check: &Check<'_, Self>) -> bool {
         check.case.motions.iter().all(|motion| {
             let state = Along::Motion.state(check.case, motion, Traced::from(0.0));
-            let q = check.subject.kernel(Kernel::Q, &state);
+            let q = check.of.q(check.made.traced(), &state);
             q.entries().iter().all(|entry| !entry.is_near_half_a_turn)
         })
     }
 
     fn properties(check: &Check<'_, Self>) -> Result<(), Failure> {
         for m in &check.case.motions {
-            if is_internal::<Self>() {
+            if is_internal(check.of) {
                 let q = check.at(Kernel::Q, m);
                 check.balance(&[q.entries()], q.largest() * check.case.size())?;
             }
@@ -97,22 +163,28 @@ impl<K: Force<S>, S: Bodies> Subject for OfForce<K, S> {
         Ok(())
     }
 
-    fn facts((): &()) -> Result<(), Failure> {
-        let depends_on_velocity = !K::SPEC.dq_dv.is_empty();
-        if K::SPEC.dissipative == depends_on_velocity {
+    fn facts(self, (): &()) -> Result<(), Failure> {
+        let depends_on_velocity = !self.spec.dq_dv.is_empty();
+        if self.spec.dissipative == depends_on_velocity {
             return Ok(());
         }
         let entry = "`dissipative` of the spec against the pattern of ∂Q/∂v".to_owned();
-        let facts = [K::SPEC.dissipative, depends_on_velocity].map(f64::from);
-        Err(fact(Self::COMMON.name, Property::DqDv, entry, facts, None))
+        let facts = [self.spec.dissipative, depends_on_velocity].map(f64::from);
+        Err(fact(self.common().name, Property::DqDv, entry, facts, None))
     }
 }
 
-fn q_pattern<K: Force<S>, S: Bodies>() -> Vec<[usize; 2]> {
-    K::SPEC.q.iter().map(|&row| [row, 0]).collect()
+impl<S: Bodies> OfForce<S> {
+    /// Q as a column.
+    fn q<D: Number>(self, k: &dyn ForceElement<D, S>, at: &State<S, D>) -> Block<D> {
+        let State { x, v, f, .. } = at;
+        let v = &State::<S, D>::twists(v);
+        let shape = [self.columns(), 1];
+        sparse(shape, &self.q_pattern(), |out| k.q(x, v, f, out))
+    }
 }
 
-impl<K: Force<S>, S: Bodies> Check<'_, OfForce<K, S>> {
+impl<S: Bodies> Check<'_, OfForce<S>> {
     /// `(Q(v) − Q(0))·v ≤ 0`, and `wᵀ·∂Q/∂v·w ≤ 0` at rest. Away from rest a force may fall with a
     /// velocity and still take energy: the side force of a tyre with its speed along.
     fn dissipation(&self, m: &Motion) -> Result<(), Failure> {

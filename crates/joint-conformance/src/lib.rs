@@ -41,6 +41,11 @@ pub use bodies::Bodies;
 pub use case::{AWKWARD_CASES, Kind, ORDINARY_CASES};
 pub use failure::{DIFFERENCE_TOLERANCE, DUAL_TOLERANCE, Failure, Property, Reference};
 
+use std::collections::BTreeMap;
+use std::num::NonZero;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
 use check::check;
 use constraint::OfConstraint;
 use force::OfForce;
@@ -51,9 +56,9 @@ use joints::{Constraint, Force, Visitor, plane_constraints, plane_forces, space3
 /// # Errors
 /// The first property that is violated.
 pub fn check_constraint<K: Constraint<S>, S: Bodies>(seed: u64) -> Result<(), Failure> {
-    let mut checks = Checks::new(seed);
+    let mut checks = Checks::default();
     Visitor::<S>::constraint::<K>(&mut checks);
-    checks.result
+    checks.run(seed)
 }
 
 /// Checks a force definition.
@@ -61,7 +66,7 @@ pub fn check_constraint<K: Constraint<S>, S: Bodies>(seed: u64) -> Result<(), Fa
 /// # Errors
 /// The first property that is violated.
 pub fn check_force<F: Force<S>, S: Bodies>(seed: u64) -> Result<(), Failure> {
-    check::<OfForce<F, S>>(seed)
+    check(OfForce::<S>::new::<F>(), seed)
 }
 
 /// Checks all definitions of the library.
@@ -69,26 +74,49 @@ pub fn check_force<F: Force<S>, S: Bodies>(seed: u64) -> Result<(), Failure> {
 /// # Errors
 /// The first violated property of the first definition with one.
 pub fn check_all(seed: u64) -> Result<(), Failure> {
-    let mut checks = Checks::new(seed);
+    let mut checks = Checks::default();
     plane_constraints(&mut checks);
     plane_forces(&mut checks);
     space3::constraints(&mut checks);
     space3::forces(&mut checks);
-    checks.result
+    checks.run(seed)
 }
 
-/// Checks the visited definitions up to the first failure.
-struct Checks {
-    seed: u64,
-    result: Result<(), Failure>,
-}
+/// The checks of the visited definitions, in their order.
+#[derive(Default)]
+struct Checks(Vec<Box<Check>>);
+
+/// The check of one definition, with a seed.
+type Check = dyn Fn(u64) -> Result<(), Failure> + Sync;
 
 impl Checks {
-    fn new(seed: u64) -> Self {
-        Self {
-            seed,
-            result: Ok(()),
-        }
+    /// Makes all checks up to the first failure, as many at once as there are processors.
+    fn run(&self, seed: u64) -> Result<(), Failure> {
+        let next = AtomicUsize::new(0);
+        let (failed, failures) = (AtomicBool::new(false), Mutex::new(BTreeMap::new()));
+        let work = || {
+            while !failed.load(Ordering::Relaxed) {
+                let k = next.fetch_add(1, Ordering::Relaxed);
+                let Some(check) = self.0.get(k) else { break };
+                if let Err(failure) = check(seed) {
+                    failed.store(true, Ordering::Relaxed);
+                    let mut failures = failures.lock().unwrap_or_else(PoisonError::into_inner);
+                    failures.insert(k, failure);
+                }
+            }
+        };
+        let processors = std::thread::available_parallelism().map_or(1, NonZero::get);
+        std::thread::scope(|scope| {
+            for _ in 1..processors.min(self.0.len()) {
+                scope.spawn(work);
+            }
+            work();
+        });
+        // Those before the first failure were begun before it, and have ended well.
+        let failures = failures
+            .into_inner()
+            .unwrap_or_else(PoisonError::into_inner);
+        failures.into_values().next().map_or(Ok(()), Err)
     }
 }
 
@@ -99,14 +127,12 @@ impl<S: Bodies> Visitor<S> for Checks {
     }
 
     fn drive<K: Constraint<S>>(&mut self) {
-        if self.result.is_ok() {
-            self.result = check::<OfConstraint<K, S>>(self.seed);
-        }
+        let of = OfConstraint::<S>::new::<K>();
+        self.0.push(Box::new(move |seed| check(of, seed)));
     }
 
     fn force<F: Force<S>>(&mut self) {
-        if self.result.is_ok() {
-            self.result = check::<OfForce<F, S>>(self.seed);
-        }
+        let of = OfForce::<S>::new::<F>();
+        self.0.push(Box::new(move |seed| check(of, seed)));
     }
 }

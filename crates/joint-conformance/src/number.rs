@@ -3,13 +3,26 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use joints::Real;
-use num_dual::DualNum;
+use joints::{Element, ForceElement, Real};
+use num_dual::{Dual2_64, DualNum};
+
+use crate::bodies::Bodies;
+use crate::constraint::AnyConstraint;
+use crate::force::AnyForce;
 
 /// A number that poses can be made of: cosine and sine come from the number itself.
 pub trait Number: Real {
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
+}
+
+/// A number type in which all kernels are compiled.
+pub(crate) trait KernelNumber: Number {
+    /// The kernels of a constraint for it.
+    fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S>;
+
+    /// The kernels of a force for it.
+    fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S>;
 }
 
 impl Number for f64 {
@@ -18,11 +31,32 @@ impl Number for f64 {
     }
 }
 
-/// A dual number of `num-dual` as a number of kernels.
-#[derive(Clone, Copy)]
-pub(crate) struct Dual<D>(pub(crate) D);
+impl KernelNumber for f64 {
+    fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S> {
+        constraint.plain()
+    }
 
-impl<D: DualNum<Primitive = f64> + Copy> Number for Dual<D> {
+    fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S> {
+        force.plain()
+    }
+}
+
+/// A dual number of `num-dual` as a number of kernels, with its first and second derivative: one
+/// type for both, as each type compiles all kernels once more.
+#[derive(Clone, Copy)]
+pub(crate) struct Dual(pub(crate) Dual2_64);
+
+impl KernelNumber for Dual {
+    fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S> {
+        constraint.dual()
+    }
+
+    fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S> {
+        force.dual()
+    }
+}
+
+impl Number for Dual {
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.0.sin_cos();
         (Self(sin), Self(cos))
@@ -30,7 +64,7 @@ impl<D: DualNum<Primitive = f64> + Copy> Number for Dual<D> {
 }
 
 /// As for plain numbers, root and reciprocal of zero are zero with derivatives zero.
-impl<D: DualNum<Primitive = f64> + Copy> Real for Dual<D> {
+impl Real for Dual {
     fn sqrt(self) -> Self {
         self.unless_zero(DualNum::sqrt)
     }
@@ -42,16 +76,16 @@ impl<D: DualNum<Primitive = f64> + Copy> Real for Dual<D> {
     /// By Taylor's series about the real part, of which the difference from it keeps three terms at
     /// most.
     fn angle_over_sine(self, order: u8) -> Self {
-        let c = self.0.re();
+        let c = self.0.re;
         let of = |more: u8| Self::from(rotation::angle_over_sine(c, order + more));
         let d = self - Self::from(c);
         of(0) + d * (of(1) + d * (Self::from(0.5) * of(2) + d * Self::from(1.0 / 6.0) * of(3)))
     }
 }
 
-impl<D: DualNum<Primitive = f64> + Copy> Dual<D> {
-    fn unless_zero(self, function: impl Fn(&D) -> D) -> Self {
-        if self.0.re() == 0.0 {
+impl Dual {
+    fn unless_zero(self, function: impl Fn(&Dual2_64) -> Dual2_64) -> Self {
+        if self.0.re == 0.0 {
             Self::from(0.0)
         } else {
             Self(function(&self.0))
@@ -59,13 +93,13 @@ impl<D: DualNum<Primitive = f64> + Copy> Dual<D> {
     }
 }
 
-impl<D: DualNum<Primitive = f64>> From<f64> for Dual<D> {
+impl From<f64> for Dual {
     fn from(x: f64) -> Self {
-        Self(D::from(x))
+        Self(Dual2_64::from(x))
     }
 }
 
-impl<D: DualNum> Add for Dual<D> {
+impl Add for Dual {
     type Output = Self;
 
     fn add(self, y: Self) -> Self {
@@ -73,7 +107,7 @@ impl<D: DualNum> Add for Dual<D> {
     }
 }
 
-impl<D: DualNum> Sub for Dual<D> {
+impl Sub for Dual {
     type Output = Self;
 
     fn sub(self, y: Self) -> Self {
@@ -81,7 +115,7 @@ impl<D: DualNum> Sub for Dual<D> {
     }
 }
 
-impl<D: DualNum> Mul for Dual<D> {
+impl Mul for Dual {
     type Output = Self;
 
     fn mul(self, y: Self) -> Self {
@@ -89,7 +123,7 @@ impl<D: DualNum> Mul for Dual<D> {
     }
 }
 
-impl<D: DualNum> Div for Dual<D> {
+impl Div for Dual {
     type Output = Self;
 
     fn div(self, y: Self) -> Self {
@@ -97,7 +131,7 @@ impl<D: DualNum> Div for Dual<D> {
     }
 }
 
-impl<D: DualNum> Neg for Dual<D> {
+impl Neg for Dual {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -204,8 +238,6 @@ impl Neg for Traced {
 
 #[cfg(test)]
 mod tests {
-    use num_dual::{Dual2_64, Dual64};
-
     use super::*;
 
     #[test]
@@ -216,16 +248,14 @@ mod tests {
         // 1/x at 2: 1/2, −1/4, 1/4.
         let inverse = Dual(Dual2_64::new(2.0, 1.0, 0.0)).recip_or_zero().0;
         assert_eq!((inverse.re, inverse.v1, inverse.v2), (0.5, -0.25, 0.25));
-        let inverse = Dual(Dual64::new(2.0, 1.0)).recip_or_zero().0;
-        assert_eq!((inverse.re, inverse.eps), (0.5, -0.25));
     }
 
     #[test]
     fn at_zero_both_are_zero_with_derivative_zero() {
-        let x = Dual(Dual64::new(0.0, 3.0));
-        let (root, inverse) = (Real::sqrt(x).0, x.recip_or_zero().0);
-        assert_eq!((root.re, root.eps), (0.0, 0.0));
-        assert_eq!((inverse.re, inverse.eps), (0.0, 0.0));
+        let x = Dual(Dual2_64::new(0.0, 3.0, 1.0));
+        for found in [Real::sqrt(x).0, x.recip_or_zero().0] {
+            assert_eq!((found.re, found.v1, found.v2), (0.0, 0.0, 0.0));
+        }
     }
 
     #[test]

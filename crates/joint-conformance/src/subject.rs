@@ -7,58 +7,81 @@ use crate::block::Block;
 use crate::bodies::Bodies;
 use crate::check::Check;
 use crate::failure::{Failure, Property};
-use crate::number::Number;
+use crate::number::KernelNumber;
 use crate::pattern::Pattern;
 use crate::state::State;
 
-/// A definition with values for its parameters, as the harness sees it.
-pub(crate) trait Subject: Sized {
+/// A definition as the harness sees it: what its spec says, and how it is made. It is a value, not
+/// a type, so that the harness is compiled once for all definitions of a space.
+pub(crate) trait Subject: Copy {
     /// The space of its bodies.
     type Space: Bodies;
+    /// The definition with values for its parameters.
+    type Made;
     /// The names of its kernels, and of what is made of them.
     type Kernel: Copy + 'static;
     /// What has to be seen in some case, whichever.
     type Seen: Default;
 
-    /// What the specs of constraints and forces share.
-    const COMMON: Spec;
-    /// Its rows, each with a multiplier; forces have none.
-    const ROWS: &'static [Row];
-    /// Whether its last function of time enters by its cosine and sine.
-    const TURNING: bool = false;
-    /// Number of angles that it is given with their turns.
-    const TURNS: usize = 0;
     /// The kernel that says what an error of the coordinates does.
     const SLOPE: Self::Kernel;
     /// Kernels whose norm stays if all bodies are moved as one, with their names.
     const INVARIANTS: &'static [(Self::Kernel, &'static str)];
 
-    /// Columns of its blocks: the degrees of freedom of its slots.
-    fn columns() -> usize {
-        <Self::Space as joints::Space>::N_DOF * Self::COMMON.slots.len()
+    /// What the specs of constraints and forces share.
+    fn common(self) -> &'static Spec;
+
+    /// Its rows, each with a multiplier; forces have none.
+    fn rows(self) -> &'static [Row] {
+        &[]
     }
 
-    /// The subject with these values for its parameters.
-    fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError>;
+    /// Whether its last function of time enters by its cosine and sine.
+    fn turning(self) -> bool {
+        false
+    }
 
-    /// The definition itself.
-    fn definition(&mut self) -> &mut dyn Definition<Self::Space>;
+    /// Number of angles that it is given with their turns.
+    fn turns(self) -> usize {
+        0
+    }
+
+    /// Columns of its blocks: the degrees of freedom of its slots.
+    fn columns(self) -> usize {
+        <Self::Space as joints::Space>::N_DOF * self.common().slots.len()
+    }
+
+    /// It with these values for its parameters.
+    fn make(self, arguments: &[Argument]) -> Result<Self::Made, ArgumentError>;
+
+    /// What is made, as any definition.
+    fn definition(made: &mut Self::Made) -> &mut dyn Definition<Self::Space>;
 
     /// A kernel as a dense block. What the kernel leaves alone stays NaN, so that no comparison
     /// passes over it.
-    fn kernel<D: Number>(&self, kernel: Self::Kernel, at: &State<Self::Space, D>) -> Block<D>;
+    fn kernel<D: KernelNumber>(
+        self,
+        made: &Self::Made,
+        kernel: Self::Kernel,
+        at: &State<Self::Space, D>,
+    ) -> Block<D>;
 
     /// The same for plain numbers, also of kernels that are not differentiated themselves: their
     /// code is then compiled for one number type.
-    fn final_kernel(&self, kernel: Self::Kernel, at: &State<Self::Space, f64>) -> Block {
-        self.kernel(kernel, at)
+    fn final_kernel(
+        self,
+        made: &Self::Made,
+        kernel: Self::Kernel,
+        at: &State<Self::Space, f64>,
+    ) -> Block {
+        self.kernel(made, kernel, at)
     }
 
     /// Kernels with a pattern.
     ///
     /// # Errors
     /// If a pattern has entries outside of its block, or an entry twice.
-    fn patterns() -> Result<Vec<(Self::Kernel, Pattern)>, Failure>;
+    fn patterns(self) -> Result<Vec<(Self::Kernel, Pattern)>, Failure>;
 
     /// Kernels that are derivatives of others.
     fn derivatives() -> impl Iterator<Item = &'static Derivative<Self::Kernel>>;
@@ -80,7 +103,7 @@ pub(crate) trait Subject: Sized {
     fn see(_check: &Check<'_, Self>, _seen: &mut Self::Seen) {}
 
     /// Whether the spec agrees with what was seen in all cases.
-    fn facts(seen: &Self::Seen) -> Result<(), Failure>;
+    fn facts(self, seen: &Self::Seen) -> Result<(), Failure>;
 }
 
 /// A kernel that is a derivative of another one.

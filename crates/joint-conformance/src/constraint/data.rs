@@ -2,9 +2,6 @@
 //! plain numbers, so that no dual number goes through them: the references are differences through
 //! `set_data`, and, for the second kernel, dual numbers through the poses of the first.
 
-use std::marker::PhantomData;
-
-use joints::Constraint;
 use joints::spec::{DatumShape, Unit};
 
 use super::{Kernel, OfConstraint};
@@ -32,7 +29,7 @@ const ALL: [Kernel; 6] = [
     Kernel::Place,
 ];
 
-impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
+impl<S: Bodies> Check<'_, OfConstraint<S>> {
     /// All that concerns the numbers that the constraint stores.
     pub(super) fn data(&self) -> Result<(), Failure> {
         let numbers = self.numbers();
@@ -51,29 +48,24 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     }
 
     fn numbers(&self) -> Vec<f64> {
-        let mut out = vec![f64::NAN; K::SPEC.n_data()];
-        self.subject.0.data(&mut out);
+        let mut out = vec![f64::NAN; self.of.spec.n_data()];
+        self.made.plain().data(&mut out);
         out
     }
 
     /// The answer of `ask` for the constraint with these numbers.
-    fn with_data<T>(
-        &self,
-        numbers: &[f64],
-        ask: impl Fn(&Check<'_, OfConstraint<K, S>>) -> T,
-    ) -> T {
-        let mut subject = OfConstraint(self.subject.0.clone(), PhantomData);
-        subject.0.set_data(numbers);
+    fn with_data<T>(&self, numbers: &[f64], ask: impl Fn(&Check<'_, OfConstraint<S>>) -> T) -> T {
+        let made = self.made.with_data(numbers);
         ask(&Check {
-            subject: &subject,
-            case: self.case,
+            made: &made,
+            ..*self
         })
     }
 
     /// Each number belongs to one datum, all of them are listed, and directions are unit vectors.
     fn data_facts(&self, numbers: &[f64]) -> Result<(), Failure> {
         let mut next = 0;
-        for datum in K::SPEC.data {
+        for datum in self.of.spec.data {
             let name = datum.name;
             self.data_fact(&format!("place of `{name}`"), datum.first != next)?;
             next += datum.count;
@@ -108,7 +100,7 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         self.data_fact("kernels after `set_data` of the same numbers", changed)?;
         // Changes of axes, and of angles by cosine and sine, are carried out, not stored.
         let is_change = |k: usize| {
-            K::SPEC.data.iter().any(|d| {
+            self.of.spec.data.iter().any(|d| {
                 let is_kept_angle = d.shape == DatumShape::Kept(Unit::Angle);
                 // Those of space are kept by cosine and sine.
                 let turns = is_kept_angle && <S as joints::Space>::DIM > 2;
@@ -150,7 +142,7 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     fn on_holonomic_rows(&self) -> Case<S> {
         let mut case = self.case.clone();
         for motion in &mut case.motions {
-            motion.lambda[K::SPEC.holonomic..].fill(0.0);
+            motion.lambda[self.of.spec.holonomic..].fill(0.0);
         }
         case
     }
@@ -182,7 +174,12 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
             expected,
         };
         self.decide(&claim, |row, column| {
-            let datum = K::SPEC.data.iter().find(|d| d.numbers().contains(&row));
+            let datum = self
+                .of
+                .spec
+                .data
+                .iter()
+                .find(|d| d.numbers().contains(&row));
             let name = datum.map_or("", |d| d.name);
             let number = datum.map_or(row, |d| row - d.first);
             format!("number {number} of `{name}`, motion {column}")
@@ -190,7 +187,7 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     }
 }
 
-fn bits<K: Constraint<S>, S: Bodies>(check: &Check<'_, OfConstraint<K, S>>) -> Vec<u64> {
+fn bits<S: Bodies>(check: &Check<'_, OfConstraint<S>>) -> Vec<u64> {
     let m = &check.case.motions[0];
     let block = |kernel| check.at(kernel, m).map(f64::to_bits).entries().to_vec();
     ALL.into_iter().flat_map(block).collect()

@@ -1,7 +1,6 @@
 //! What holds between the kernels of a constraint without derivatives: wrench, place, balance of
 //! forces, the start.
 
-use joints::Constraint;
 use joints::spec::{Parameter, Role, Shape};
 
 use super::{Kernel, OfConstraint};
@@ -20,7 +19,7 @@ const STEP: f64 = 1e-5;
 /// Largest error of such a rate.
 const OF_DIFFERENCE: f64 = 1e-7;
 
-impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
+impl<S: Bodies> Check<'_, OfConstraint<S>> {
     fn first(&self, kernel: Kernel) -> Block {
         self.at(kernel, &self.case.motions[0])
     }
@@ -30,7 +29,7 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     fn place_of_reaction(&self) -> Option<Block> {
         let place = self.first(Kernel::Place);
         let nowhere = place.entries().iter().any(|p| p.is_nan());
-        (!(nowhere && touches_plane(K::SPEC.common.parameters))).then_some(place)
+        (!(nowhere && touches_plane(self.of.spec.common.parameters))).then_some(place)
     }
 
     /// `F = −C_v`, `T = −C_ω − (place − origin) × F`.
@@ -56,7 +55,7 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     pub(super) fn component(&self) -> Result<(), Failure> {
         let wrench = self.first(Kernel::Wrench);
         let found = self.first(Kernel::Component);
-        if K::SPEC.role == Role::Drive {
+        if self.of.spec.role == Role::Drive {
             let [_, rate, _] = self.case.f[self.case.f.len() - 1];
             let power = (0..found.rows()).map(|row| found.get(row, 0) * rate);
             let power = Block::column(power.collect());
@@ -93,11 +92,11 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         };
         let (x, motion) = (&self.case.x, &self.case.motions[0]);
         let found = self.derivative::<DualNumbers>(Kernel::Place, By::Poses, motion);
-        let mut expected = Block::filled(S::DIM, OfConstraint::<K, S>::columns(), 0.0);
-        let owner = if K::SPEC.common.bearings { 2 } else { 0 };
+        let mut expected = Block::filled(S::DIM, self.of.columns(), 0.0);
+        let owner = if self.of.spec.common.bearings { 2 } else { 0 };
         let velocities = S::point_velocities(&x[owner], point(&place)).into_iter();
         for (dof, velocity) in velocities.enumerate() {
-            let touches = dof >= S::DIM && touches_plane(K::SPEC.common.parameters);
+            let touches = dof >= S::DIM && touches_plane(self.of.spec.common.parameters);
             let column = S::N_DOF * owner + dof;
             for (k, velocity) in velocity.into_iter().enumerate().take(S::DIM) {
                 let value = if touches {
@@ -113,7 +112,7 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
 
     /// The rate of each counted angle is c·ṡ − s·ċ of its cosine and sine, by differences.
     pub(super) fn turned(&self) -> Result<(), Failure> {
-        let angles = K::SPEC.turns.max(usize::from(K::SPEC.turning));
+        let angles = self.of.spec.turns.max(usize::from(self.of.spec.turning));
         if self.case.kind != Kind::Ordinary {
             return Ok(());
         }
@@ -121,7 +120,7 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         let at = |number: usize, tau: f64| {
             let state = Along::Motion.state::<S, f64>(self.case, motion, tau);
             let v = State::<S, f64>::twists(&state.v);
-            self.subject.0.turned(number, &state.x, &v)
+            self.made.plain().turned(number, &state.x, &v)
         };
         for number in 0..angles {
             let [before, now, after] = [-STEP, 0.0, STEP].map(|tau| at(number, tau));
@@ -138,7 +137,7 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     /// Only where Φ = 0: elsewhere two points that should coincide give the pair of forces a lever.
     pub(super) fn rows_balance(&self) -> Result<(), Failure> {
         let ordinary = self.case.kind == Kind::Ordinary;
-        if K::SPEC.holonomic == 0 || !(ordinary && is_internal::<OfConstraint<K, S>>()) {
+        if self.of.spec.holonomic == 0 || !(ordinary && is_internal(self.of)) {
             return Ok(());
         }
         let case = self.closed();
@@ -147,18 +146,15 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
         let left = check.first(Kernel::Phi).norm();
         let floor = c.largest().max(1.0) * case.size() + left / DUAL_TOLERANCE;
         check.balance(
-            &(0..K::SPEC.holonomic)
+            &(0..self.of.spec.holonomic)
                 .map(|row| c.row(row))
                 .collect::<Vec<_>>(),
             floor,
         )
     }
 
-    pub(super) fn with<'s>(&'s self, case: &'s Case<S>) -> Check<'s, OfConstraint<K, S>> {
-        Check {
-            subject: self.subject,
-            case,
-        }
+    pub(super) fn with<'s>(&'s self, case: &'s Case<S>) -> Check<'s, OfConstraint<S>> {
+        Check { case, ..*self }
     }
 
     /// The case with its poses moved until Φ = 0, or nearly so: corrections along one row of C
@@ -171,7 +167,7 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
             if phi.largest() <= f64::EPSILON * case.size() {
                 break;
             }
-            for row in 0..K::SPEC.holonomic {
+            for row in 0..self.of.spec.holonomic {
                 let phi = self.with(&case).first(Kernel::Phi).get(row, 0);
                 let c = self.with(&case).first(Kernel::C);
                 let square: f64 = c.row(row).iter().map(|e| e * e).sum();
@@ -191,7 +187,7 @@ impl<K: Constraint<S>, S: Bodies> Check<'_, OfConstraint<K, S>> {
     pub(super) fn start(&self) -> Result<(), Failure> {
         let phi = phi_at_start(self);
         let kept = |row: usize| {
-            let restricts = K::SPEC.rows[row].restricts_start;
+            let restricts = self.of.spec.rows[row].restricts_start;
             if restricts { phi.get(row, 0) } else { 0.0 }
         };
         let expected = Block::column((0..phi.rows()).map(kept).collect());
@@ -211,9 +207,7 @@ fn point(place: &Block) -> [f64; 3] {
 }
 
 /// Φ at the start, functions of time zero.
-pub(super) fn phi_at_start<K: Constraint<S>, S: Bodies>(
-    check: &Check<'_, OfConstraint<K, S>>,
-) -> Block {
+pub(super) fn phi_at_start<S: Bodies>(check: &Check<'_, OfConstraint<S>>) -> Block {
     let start = Case {
         x: check.case.start.clone(),
         f: vec![[0.0; 3]; check.case.f.len()],
