@@ -147,7 +147,7 @@ impl<'m> KeptRowMotion<'m> {
     #[must_use]
     pub fn independent(&self) -> Option<(&[usize], &[usize])> {
         let coordinates = self.manifold.coordinates.as_ref();
-        coordinates.map(|c| (&c.z[..], &c.u[..]))
+        coordinates.map(|c| (&c.partition.z[..], &c.partition.u[..]))
     }
 
     /// Whether generated code is in use.

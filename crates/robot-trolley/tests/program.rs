@@ -20,7 +20,9 @@ fn the_program_finds_what_was_published() {
     let lines: Vec<_> = text.lines().map(words).collect();
     for (row, number) in [("rows of C", "22"), ("rank C", "20"), ("redundancy p", "2")] {
         let row = words(row);
-        let line = lines.iter().find(|l| l.windows(row.len()).any(|w| w == row));
+        let line = lines
+            .iter()
+            .find(|l| l.windows(row.len()).any(|w| w == row));
         let line = line.unwrap_or_else(|| panic!("no row {row:?} in\n{text}"));
         assert_eq!(line[line.len() - 2..], [number, number], "{line:?}");
     }
@@ -40,7 +42,9 @@ fn the_program_finds_what_was_published() {
     assert_eq!((unique, not_unique), (8, 6), "{text}");
     assert!(text.contains("at 201 of 201 instants"), "{text}");
 
-    let figures = text.lines().filter_map(|line| line.strip_prefix("written: "));
+    let figures = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("written: "));
     let figures: Vec<_> = figures.map(std::fs::read_to_string).collect();
     assert!(figures.len() >= 3, "{text}");
     for figure in figures {

@@ -19,10 +19,7 @@ use crate::solve::{Evaluation, KeptEquations};
 
 /// A partition, and the last completed state.
 pub(crate) struct IndependentCoordinates {
-    /// Columns of Φq whose coordinates are independent.
-    pub(crate) z: Vec<usize>,
-    /// Independent velocities.
-    pub(crate) u: Vec<usize>,
+    pub(crate) partition: Partition,
     pub(crate) q: Vec<f64>,
     pub(crate) v: Vec<f64>,
     /// The last accepted state.
@@ -33,15 +30,23 @@ pub(crate) struct IndependentCoordinates {
     /// before.
     pub(crate) base: Vec<f64>,
     pub(crate) bases: u64,
-    /// Number of earlier partitions.
-    pub(crate) generation: u64,
-    /// The state at which this partition was chosen.
-    pub(crate) origin: Origin,
     /// The state at which a new partition is to be chosen, if one is needed.
     renewal: Option<Origin>,
     /// Scratch: a configuration before it was completed, n_q, and a correction, n_v.
     guess: Vec<f64>,
     storage: Storage,
+}
+
+/// Which coordinates and velocities are independent.
+pub(crate) struct Partition {
+    /// Columns of Φq whose coordinates are independent.
+    pub(crate) z: Vec<usize>,
+    /// Independent velocities.
+    pub(crate) u: Vec<usize>,
+    /// The state at which it was chosen.
+    pub(crate) origin: Origin,
+    /// Number of earlier partitions.
+    pub(crate) generation: u64,
 }
 
 /// An accepted state.
@@ -73,18 +78,20 @@ impl IndependentCoordinates {
         let mut storage = Storage::new(origin.v.len());
         storage.held = Held::among(mechanism, &z, &origin.q);
         Ok(Self {
-            z,
-            u,
             is_fresh: false,
             base: origin.q.clone(),
             bases: before.map_or(0, |c| c.bases + 1),
             q: origin.q.clone(),
             v: origin.v.clone(),
             accepted: origin.clone(),
-            generation: before.map_or(0, |c| c.generation + 1),
             guess: origin.q.clone(),
             storage,
-            origin,
+            partition: Partition {
+                z,
+                u,
+                origin,
+                generation: before.map_or(0, |c| c.partition.generation + 1),
+            },
             renewal: None,
         })
     }
@@ -107,7 +114,7 @@ impl IndependentCoordinates {
     ) -> Result<(), MotionFault> {
         let mechanism = equations.at.mechanism;
         let far = FAR_COMPLETION + FAR_EXTRAPOLATED * self.way_to(t, &equations.at);
-        if self.z.is_empty() {
+        if self.partition.z.is_empty() {
             self.q.copy_from_slice(q);
         }
         self.take_independent(mechanism, q, v);
@@ -171,9 +178,9 @@ impl IndependentCoordinates {
     /// Newton's method would converge to another branch or another revolution from there. Of
     /// counted angles only the turns are read, which an integrator carries.
     fn take_independent(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64]) {
-        mechanism.take(&mut self.q, q, &self.z);
+        mechanism.take(&mut self.q, q, &self.partition.z);
         self.storage.held.keep(&mut self.q);
-        for &i in &self.u {
+        for &i in &self.partition.u {
             self.v[i] = v[i];
         }
     }

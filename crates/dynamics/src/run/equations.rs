@@ -42,12 +42,7 @@ pub(super) struct RunEquations<'m> {
     /// Linear systems of implicit methods, allocated by their first step.
     reduced: Option<Reduced>,
     until: Until<'m>,
-    leader: Leader,
-    /// Whether coordinates are so large relative to the mechanism that their rounding shows in
-    /// stages on the way to a singular configuration.
-    is_coarse: bool,
-    /// Whether the stages of the present step are moved onto the constraints.
-    is_careful: bool,
+    passing: Passing,
     /// Whether stages of the present step were evaluated by generated code that is no longer in
     /// use; then the step begins again.
     is_void: bool,
@@ -58,6 +53,16 @@ pub(super) struct RunEquations<'m> {
     /// The last accepted step.
     last: Span,
     scratch: Scratch,
+}
+
+/// How the run goes through singular configurations.
+struct Passing {
+    leader: Leader,
+    /// Whether coordinates are so large relative to the mechanism that their rounding shows in
+    /// stages on the way to a singular configuration.
+    is_coarse: bool,
+    /// Whether the stages of the present step are moved onto the constraints.
+    is_careful: bool,
 }
 
 /// When the run ends.
@@ -94,9 +99,11 @@ impl<'m> RunEquations<'m> {
                 t_end: options.t_end,
                 stop,
             },
-            leader: Leader::Alone,
-            is_coarse: false,
-            is_careful: false,
+            passing: Passing {
+                leader: Leader::Alone,
+                is_coarse: false,
+                is_careful: false,
+            },
             is_void: false,
             failed: None,
             by_time: ByTime::for_run(prepared, options),
@@ -108,12 +115,12 @@ impl<'m> RunEquations<'m> {
             motion,
         };
         let at = &equations.motion.equations.at;
-        equations.is_coarse = at
+        equations.passing.is_coarse = at
             .mechanism
             .scales(&at.s)
             .relative_residual(at.size, 0..at.mechanism.layout().m)
             > COARSE;
-        equations.is_careful = equations.wants_care();
+        equations.passing.is_careful = equations.wants_care();
         equations.record.min_pivot_ratio = equations.motion.pivot_ratio();
         equations
     }
@@ -141,7 +148,7 @@ impl<'m> RunEquations<'m> {
     fn wants_care(&self) -> bool {
         let motion = &self.motion;
         let off = motion.manifold.projects() && motion.independent().is_none();
-        let is_expected = self.is_coarse && motion.watch.delicate().is_some();
+        let is_expected = self.passing.is_coarse && motion.watch.delicate().is_some();
         let is_near = is_expected || are_delicate(&motion.equations.velocity);
         off && (self.is_by_time() || is_near)
     }
@@ -158,8 +165,8 @@ impl<'m> RunEquations<'m> {
             equations.velocity.forget_partition();
             equations.position.forget_partition();
         }
-        self.leader = leader;
-        self.is_careful = self.wants_care();
+        self.passing.leader = leader;
+        self.passing.is_careful = self.wants_care();
     }
 
     /// Whether another method has to lead after an accepted step over these times.
@@ -172,7 +179,7 @@ impl<'m> RunEquations<'m> {
             f64::INFINITY
         };
         let is_foreseen = delicate.is_some_and(|at| at - t < reach);
-        let hands_over = match self.leader {
+        let hands_over = match self.passing.leader {
             Leader::Alone => false,
             Leader::HandsOver { is_due } => is_due || is_foreseen,
             Leader::Passes => !is_foreseen && !are_delicate(&self.motion.equations.velocity),
@@ -297,7 +304,7 @@ impl<'m> RunEquations<'m> {
             code.look_ahead(&motion.equations, &mut motion.watch);
             self.record.events.push(departure.event);
             self.is_void = departure.is_within_step;
-            self.is_careful = self.wants_care();
+            self.passing.is_careful = self.wants_care();
         }
     }
 
@@ -321,7 +328,7 @@ impl<'m> RunEquations<'m> {
     /// f(t, y) by the interpreter.
     fn evaluate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
         self.lead_completion(t);
-        if !self.is_careful {
+        if !self.passing.is_careful {
             self.motion.derivative(t, y, dy)?;
             return match &mut self.reduced {
                 Some(reduced) => reduced.follow_partition(&mut self.motion),
@@ -368,10 +375,10 @@ impl<'m> RunEquations<'m> {
         let projects = motion.manifold.projects();
         let may_have_passed = !on_code && watch.may_have_passed(equations, [step.t0, step.t]);
         if may_have_passed
-            && self.leader == (Leader::HandsOver { is_due: false })
+            && self.passing.leader == (Leader::HandsOver { is_due: false })
             && watch.came_from_afar()
         {
-            self.leader = Leader::HandsOver { is_due: true };
+            self.passing.leader = Leader::HandsOver { is_due: true };
             return Err(Next::Reject);
         }
         if may_have_passed && !projects {
@@ -442,7 +449,7 @@ impl<'m> RunEquations<'m> {
             let event = code.come_back(equations, now);
             self.record.events.extend(event);
         }
-        self.is_careful = self.wants_care();
+        self.passing.is_careful = self.wants_care();
     }
 }
 
@@ -531,7 +538,7 @@ impl Ode for RunEquations<'_> {
             }
             Err(Next::Accept | Next::Keep(_) | Next::Reject) => {
                 self.is_void = false;
-                self.is_careful = self.wants_care();
+                self.passing.is_careful = self.wants_care();
                 Ok(StepEnd::Reject)
             }
         }

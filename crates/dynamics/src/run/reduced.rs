@@ -230,7 +230,7 @@ impl Reduced {
         if own.reads.is_empty() {
             return Ok(());
         }
-        if coordinates.generation == own.generation {
+        if coordinates.partition.generation == own.generation {
             if coordinates.bases != own.base {
                 let (mechanism, q) = (motion.mechanism(), &coordinates.base);
                 own.read_from(mechanism, q, coordinates.bases);
@@ -242,7 +242,7 @@ impl Reduced {
             }
             return Ok(());
         }
-        let Origin { t, q, v } = coordinates.origin.clone();
+        let Origin { t, q, v } = coordinates.partition.origin.clone();
         let mut y = [q, v].concat();
         y.resize(self.columns.ncols(), 0.0);
         self.linearise(motion, t, &y)?;
@@ -265,11 +265,11 @@ impl Reduced {
     fn take_partition(&mut self, motion: &KeptRowMotion<'_>, y: &[f64]) {
         let coordinates = motion.manifold.coordinates.as_ref();
         let coordinates = coordinates.expect("linearise has chosen them");
-        let (z, u) = (&coordinates.z, &coordinates.u);
+        let (z, u) = (&coordinates.partition.z, &coordinates.partition.u);
         let (mechanism, n) = (motion.mechanism(), y.len());
         let n_q = mechanism.layout().n_q;
         let own = &mut self.partition;
-        own.generation = coordinates.generation;
+        own.generation = coordinates.partition.generation;
         own.reads.resize_with(z.len() + u.len(), Vec::new);
         for (terms, u) in own.reads[z.len()..].iter_mut().zip(u) {
             terms.clear();

@@ -11,7 +11,7 @@ use solvability::RowDecision;
 
 use super::evaluation::Evaluation;
 use super::solver::Solver;
-use super::units::{is_far, mass_in_units, mass_of_positions, units};
+use super::units::{Scaled, is_far, mass_in_units, mass_of_positions, units};
 use crate::counts::{Counted, note};
 use crate::error::MotionFault;
 use crate::limits::{PIVOT_SINGULAR, SUMMED_FROM};
@@ -27,12 +27,8 @@ pub(crate) struct KeptRows {
     pub(crate) rhs: Vec<f64>,
     /// Multipliers of the last solution.
     pub(crate) lambda: Vec<f64>,
-    /// Units of the coordinates, and the masses in these units, n_v each.
-    units: Vec<f64>,
-    mass: Vec<f64>,
-    /// A force and a motion in these units, n_v each.
-    force: Vec<f64>,
-    motion: Vec<f64>,
+    /// Masses, and the force and the motion of a solution, in units of the mechanism.
+    scaled: Scaled,
     /// The rows in these units, and their factors.
     solver: Solver,
     /// Number of kept rows of C, by which the solver was chosen.
@@ -58,7 +54,6 @@ impl KeptRows {
         of_c: usize,
     ) -> Result<Self, MotionFault> {
         let units = units(at.mechanism, at.size);
-        let (n, r) = (units.len(), rows.kept.len());
         let solver = Solver::new(at.mechanism, &rows.kept, (&units, at.size), of_c);
         let layout = at.mechanism.layout();
         let mut level = rows.kept.iter().chain(&rows.dropped);
@@ -67,6 +62,7 @@ impl KeptRows {
         } else {
             mass_in_units(at.mechanism, &units)
         };
+        let r = rows.kept.len();
         Ok(Self {
             kept: rows.kept.clone(),
             dropped: rows.dropped.clone(),
@@ -77,10 +73,7 @@ impl KeptRows {
                 source,
             })?,
             of_c,
-            mass,
-            units,
-            force: vec![0.0; n],
-            motion: vec![0.0; n],
+            scaled: Scaled::new(units, mass),
             is_far: is_far(at.size),
             reference_pivot: None,
             partition: None,
@@ -117,7 +110,7 @@ impl KeptRows {
             Some(partition) => partition.0 = pivot,
             None => {
                 self.reference_pivot = pivot;
-                self.solver.keep_shares(&self.mass);
+                self.solver.keep_shares(&self.scaled.mass);
             }
         }
         Ok(())
@@ -131,7 +124,9 @@ impl KeptRows {
     ) -> Result<(), MotionFault> {
         let reference = self.reference().filter(|r| r.is_finite());
         let floor = share * reference.unwrap_or(0.0);
-        let factored = self.solver.factor_above(floor, &at.s.entries, &self.mass);
+        let factored = self
+            .solver
+            .factor_above(floor, &at.s.entries, &self.scaled.mass);
         factored.map_err(|e| self.fault(at, e))
     }
 
@@ -160,7 +155,7 @@ impl KeptRows {
             Ok(dependent)
         });
         let dependent = chosen.map_err(|e| self.fault(at, e))?;
-        let free = (0..self.units.len()).filter(|i| !dependent.contains(i));
+        let free = (0..self.scaled.units.len()).filter(|i| !dependent.contains(i));
         let free = free.collect();
         self.partition = Some(PartitionPivot(None));
         self.factor(at)?;
@@ -209,8 +204,8 @@ impl KeptRows {
                 pivot: self.relative_pivot(),
             });
         }
-        self.take_motion(x);
-        let (rhs, motion) = (&self.rhs, &mut self.motion);
+        self.scaled.take_motion(x);
+        let (rhs, motion) = (&self.rhs, &mut self.scaled.motion);
         let completed = self.solver.null_space();
         let completed = completed.and_then(|(_, saddle)| saddle.complete(rhs, motion));
         self.written(at, completed, x)
@@ -225,11 +220,11 @@ impl KeptRows {
         x: &mut [f64],
     ) -> Result<(), MotionFault> {
         match force {
-            Some(force) => self.take_force(force),
-            None => self.force.fill(0.0),
+            Some(force) => self.scaled.take_force(force),
+            None => self.scaled.force.fill(0.0),
         }
-        let (force, rhs) = (&self.force, &self.rhs);
-        let (motion, lambda) = (&mut self.motion, &mut self.lambda);
+        let Scaled { force, motion, .. } = &mut self.scaled;
+        let (rhs, lambda) = (&self.rhs, &mut self.lambda);
         let solved = self.solver.motion(force, rhs, motion, lambda);
         self.written(at, solved, x)
     }
@@ -244,9 +239,10 @@ impl KeptRows {
         if !self.are_refined() {
             return self.solve(at, Some(&at.s.force), a);
         }
-        self.take_force(&at.s.force);
-        let (x, lambda) = (&mut self.motion, &mut self.lambda);
-        let solved = self.solver.refined(&self.force, &self.rhs, x, lambda);
+        self.scaled.take_force(&at.s.force);
+        let Scaled { force, motion, .. } = &mut self.scaled;
+        let (rhs, lambda) = (&self.rhs, &mut self.lambda);
+        let solved = self.solver.refined(force, rhs, motion, lambda);
         self.written(at, solved, a)
     }
 
@@ -265,14 +261,14 @@ impl KeptRows {
         if self.are_refined() || self.solver.brings_multipliers() {
             return Ok(());
         }
-        self.take_force(&at.s.force);
-        self.take_motion(a);
+        self.scaled.take_force(&at.s.force);
+        self.scaled.take_motion(a);
         self.solve_for_multipliers().map_err(|e| self.fault(at, e))
     }
 
     fn solve_for_multipliers(&mut self) -> Result<(), SaddleError> {
-        self.solver
-            .multipliers(&self.force, &self.motion, &mut self.lambda)
+        let Scaled { force, motion, .. } = &self.scaled;
+        self.solver.multipliers(force, motion, &mut self.lambda)
     }
 
     /// The largest coefficient of a kept row in a dropped one, with the entries of C in the
@@ -335,11 +331,12 @@ impl KeptRows {
     /// Stores the coefficients of the kept rows in a dropped one as multipliers: as a force, a row
     /// that the kept ones imply moves nothing, `M·0 + C_Kᵀ·λ = c_Dᵀ`.
     fn imply(&mut self, at: &Evaluation<'_>, dropped: usize) -> Result<(), SaddleError> {
-        self.motion.fill(0.0);
+        let scaled = &mut self.scaled;
+        scaled.motion.fill(0.0);
         at.mechanism
             .layout()
-            .scatter_row(&at.s, dropped, &mut self.force);
-        for (entry, unit) in self.force.iter_mut().zip(&self.units) {
+            .scatter_row(&at.s, dropped, &mut scaled.force);
+        for (entry, unit) in scaled.force.iter_mut().zip(&scaled.units) {
             *entry *= unit;
         }
         self.solve_for_multipliers()
@@ -347,12 +344,13 @@ impl KeptRows {
 
     /// Like [`Self::imply`], for the sum of all dropped rows with random signs.
     fn imply_sum(&mut self, at: &Evaluation<'_>, seed: u64) -> Result<(), SaddleError> {
-        self.motion.fill(0.0);
-        self.force.fill(0.0);
+        let scaled = &mut self.scaled;
+        scaled.motion.fill(0.0);
+        scaled.force.fill(0.0);
         for (k, &i) in self.dropped.iter().enumerate() {
             let sign = sign_of(k, seed);
             for (j, c) in at.mechanism.layout().row(&at.s, i) {
-                self.force[j] += sign * c * self.units[j];
+                scaled.force[j] += sign * c * scaled.units[j];
             }
         }
         self.solve_for_multipliers()
@@ -398,18 +396,6 @@ impl KeptRows {
         self.solver.orientation(frame)
     }
 
-    fn take_force(&mut self, force: &[f64]) {
-        for ((scaled, f), unit) in self.force.iter_mut().zip(force).zip(&self.units) {
-            *scaled = f * unit;
-        }
-    }
-
-    fn take_motion(&mut self, x: &[f64]) {
-        for ((scaled, x), unit) in self.motion.iter_mut().zip(x).zip(&self.units) {
-            *scaled = x / unit;
-        }
-    }
-
     /// Writes the motion just computed.
     fn written(
         &self,
@@ -418,9 +404,7 @@ impl KeptRows {
         x: &mut [f64],
     ) -> Result<(), MotionFault> {
         solved.map_err(|e| self.fault(at, e))?;
-        for ((x, scaled), unit) in x.iter_mut().zip(&self.motion).zip(&self.units) {
-            *x = scaled * unit;
-        }
+        self.scaled.write_motion(x);
         Ok(())
     }
 

@@ -5,6 +5,49 @@ use model::{Mechanism, System};
 
 use crate::limits::FAR_FROM_A_METRE;
 
+/// Masses, a force and a motion in units of the mechanism, n_v each.
+#[derive(Clone)]
+pub(super) struct Scaled {
+    /// Units of the coordinates.
+    pub(super) units: Vec<f64>,
+    pub(super) mass: Vec<f64>,
+    pub(super) force: Vec<f64>,
+    pub(super) motion: Vec<f64>,
+}
+
+impl Scaled {
+    /// No force and no motion, with these units and masses in them.
+    pub(super) fn new(units: Vec<f64>, mass: Vec<f64>) -> Self {
+        Self {
+            force: vec![0.0; units.len()],
+            motion: vec![0.0; units.len()],
+            units,
+            mass,
+        }
+    }
+
+    /// Takes a force in SI units.
+    pub(super) fn take_force(&mut self, force: &[f64]) {
+        for ((scaled, f), unit) in self.force.iter_mut().zip(force).zip(&self.units) {
+            *scaled = f * unit;
+        }
+    }
+
+    /// Takes a motion in SI units.
+    pub(super) fn take_motion(&mut self, x: &[f64]) {
+        for ((scaled, x), unit) in self.motion.iter_mut().zip(x).zip(&self.units) {
+            *scaled = x / unit;
+        }
+    }
+
+    /// Writes the motion in SI units.
+    pub(super) fn write_motion(&self, x: &mut [f64]) {
+        for ((x, scaled), unit) in x.iter_mut().zip(&self.motion).zip(&self.units) {
+            *x = scaled * unit;
+        }
+    }
+}
+
 /// The unit of each column of C for a mechanism of this size (m).
 pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let exponents = mechanism.layout().dimension_scaling(size).cols;
