@@ -8,7 +8,7 @@ use joints::space3::Axes;
 use joints::spec::{Shape, Spec};
 use model::{BodyRef, Marker};
 
-use crate::body::Bodies;
+use crate::bodies::Bodies;
 use crate::connection::listed;
 use crate::direction;
 use crate::field::Field;

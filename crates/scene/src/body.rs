@@ -10,13 +10,11 @@ use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
-use joints::{Plane, Space3};
-use model::{BodyRef, FramePose, StartPose};
+use model::{BodyRef, FramePose};
 
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::Key;
-use crate::marker::Markers;
 use crate::mistake::Mistake;
 use crate::nearest::all;
 use crate::source_map::Entry;
@@ -38,71 +36,6 @@ pub(crate) trait SceneBody: SceneSpace {
     fn read_start(start: &mut Table, body: &Self::Body, findings: &mut Findings) -> FramePose;
 }
 
-/// The keys of both spaces, each with the name of its space.
-fn keys() -> impl Iterator<Item = (&'static str, &'static str)> {
-    let plane = Plane::BODY_KEYS.iter().map(|key| (key.name, Plane::NAME));
-    let space = Space3::BODY_KEYS.iter().map(|key| (key.name, Space3::NAME));
-    plane.chain(space)
-}
-
-/// The bodies that were read.
-pub(crate) struct Bodies<S: SceneSpace> {
-    pub(crate) list: Vec<S::Body>,
-    /// Where some of them start, if not where they are described.
-    pub(crate) poses: Vec<StartPose>,
-    pub(crate) names: BodyNames,
-    /// Their places by name.
-    pub(crate) markers: Markers,
-}
-
-impl<S: SceneSpace> Default for Bodies<S> {
-    fn default() -> Self {
-        Self {
-            list: Vec::new(),
-            poses: Vec::new(),
-            names: BodyNames::default(),
-            markers: Markers::default(),
-        }
-    }
-}
-
-impl<S: SceneSpace> Bodies<S> {
-    /// Reads one body. Numbers that cannot be read are zero; they have been reported.
-    pub(crate) fn read(&mut self, mut table: Table, name: &str, findings: &mut Findings)
-    where
-        S: SceneBody,
-    {
-        let body = S::read_body(&mut table, name, findings);
-        let start = table
-            .optional(&S::START)
-            .and_then(|field| field.table(S::START.expected, findings));
-        if let Some(mut start) = start {
-            self.poses.push(StartPose {
-                body: self.list.len(),
-                frame: S::read_start(&mut start, &body, findings),
-            });
-            start.close(findings);
-        }
-        self.list.push(body);
-        self.names.add(name, &table);
-        table.spaces(keys());
-        table.close(findings);
-    }
-
-    /// A point in the frame of a body relative to its centre of mass, as joints and forces take it;
-    /// for the ground the point itself.
-    pub(crate) fn about_centre(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
-        let described = body.moving().and_then(|at| self.list.get(at));
-        described.map_or(point, |body| S::from_centre(body, point))
-    }
-
-    /// A global point relative to the centre of mass of a body, in its axes.
-    pub(crate) fn to_local(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
-        let described = body.moving().and_then(|at| self.list.get(at));
-        described.map_or(point, |body| S::to_local(body, point))
-    }
-}
-
 /// The names of the bodies, with their places.
 #[derive(Default)]
 pub(crate) struct BodyNames {
@@ -117,7 +50,7 @@ pub(crate) struct BodyNames {
 
 impl BodyNames {
     /// The body of a table.
-    fn add(&mut self, name: &str, table: &Table) {
+    pub(crate) fn add(&mut self, name: &str, table: &Table) {
         let at = self.entries.len();
         let is_own = table.peek("name") == Some(name) && name != GROUND;
         if !is_own || self.by_name.contains_key(name) {

@@ -3,11 +3,10 @@
 use model::coupling::Measured;
 
 use crate::active;
-use crate::dependent::Read;
 use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
-use crate::joint::{JointNames, Known, dimension, must_be_active, of_name};
+use crate::joint::{JointNames, Known, Read, dimension, must_be_active, of_name};
 use crate::key::{Interval, Key, TYPE, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
@@ -15,9 +14,6 @@ use crate::source_map::Entry;
 use crate::space::SceneSpace;
 use crate::table::Table;
 use crate::tolerance;
-
-/// The type of these joints.
-pub(crate) const COUPLING: &str = "coupling";
 
 const TWO_MEASURES: &str = "two measures [\"A.angle\", \"B.displacement\"]";
 const MEASURES: Key = Key::required("measures", TWO_MEASURES, Takes::Texts(2)).doc(

@@ -3,13 +3,12 @@
 
 use model::registry::ConstraintDefinition;
 
-use crate::body::Bodies;
-use crate::coupling::{self, COUPLING};
-use crate::element::Types;
+use crate::bodies::Bodies;
+use crate::coupling;
+use crate::element::{COUPLING, Types};
 use crate::findings::Findings;
-use crate::joint::{JointNames, Joints, Known};
+use crate::joint::{JointNames, Joints};
 use crate::key::TYPE;
-use crate::source_map::Entry;
 use crate::space::SceneSpace;
 use crate::table::Table;
 use crate::teeth;
@@ -61,9 +60,6 @@ impl<'t, 'r, S: SceneSpace> Found<'t, 'r, S> {
         }
     }
 }
-
-/// What was read of one of them: all, or what drives and groups must know.
-pub(crate) type Read<'r, S> = (Known<'r, S>, Option<(model::Joint<S>, Entry)>);
 
 /// Reads these joints and puts each where its table stands.
 pub(crate) fn read<'r, S: SceneSpace>(

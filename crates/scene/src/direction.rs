@@ -2,13 +2,17 @@
 //! body, or of the ground (`frame = "global"`), of the described start; what is not given for
 //! another body follows from that start, like a place.
 
+mod key;
+
+pub(crate) use key::{AXES, CROSS, FRAME, FRAMES, keys};
+
 use joints::space3::{Axes, dot};
-use joints::spec::{Parameter, Shape, Spec};
+use joints::spec::{Shape, Spec};
 use joints::{Argument, Space3};
 use model::BodyRef;
 
 use crate::between::{Between, MARKERS};
-use crate::body::Bodies;
+use crate::bodies::Bodies;
 use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
@@ -16,46 +20,6 @@ use crate::mistake::Mistake;
 use crate::nearest::did_you_mean;
 use crate::space::SceneSpace;
 use crate::table::Table;
-
-/// The axes in which directions are written.
-pub(crate) const FRAME: &str = "frame";
-/// A direction across an axis.
-pub(crate) const CROSS: &str = "cross";
-/// The axis in the frames of both bodies.
-pub(crate) const AXES: &str = "axes";
-
-/// Values of `frame`; the first is taken where it is not given.
-pub(crate) const FRAMES: [&str; 2] = ["body", "global"];
-
-/// Whether a definition has a parameter of this kind.
-fn has(spec: &Spec, is: impl Fn(&Parameter) -> bool) -> bool {
-    spec.parameters.iter().any(is)
-}
-
-/// The keys of a definition beside its parameters, in a space that carries directions.
-pub(crate) fn keys(spec: &Spec) -> impl Iterator<Item = &'static str> {
-    let is_written = |p: &Parameter| {
-        matches!(
-            p.shape,
-            Shape::Direction { .. } | Shape::Axes { like: None, .. }
-        ) && !p.optional
-    };
-    let has_axes = has(spec, |p| {
-        matches!(p.shape, Shape::Axes { .. }) && is_written(p)
-    });
-    let is_paired = has(spec, |p| {
-        matches!(p.shape, Shape::Axes { like: Some(_), .. })
-    });
-    let takes_cross = has_axes && !has(spec, |p| p.name == CROSS);
-    let keys = [
-        (FRAME, has(spec, is_written)),
-        (CROSS, takes_cross),
-        (AXES, has_axes && is_paired),
-    ];
-    keys.into_iter()
-        .filter(|(_, takes)| *takes)
-        .map(|(key, _)| key)
-}
 
 /// The directions of one element.
 pub(crate) struct Directions<'b, S: SceneSpace> {

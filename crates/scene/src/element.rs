@@ -8,9 +8,8 @@ use model::{BodyRef, ConstraintKernels, Definitions, ForceKernels, Registry};
 
 use crate::arguments::Arguments;
 use crate::between::Between;
-use crate::body::Bodies;
+use crate::bodies::Bodies;
 use crate::connection;
-use crate::coupling::COUPLING;
 use crate::direction::Directions;
 use crate::findings::Findings;
 use crate::function::Domain;
@@ -21,6 +20,9 @@ use crate::place::{self, Place};
 use crate::section;
 use crate::space::{self, SceneSpace};
 use crate::table::{Table, belongs};
+
+/// The type of joints that couple two measures, which have no definition in the registry.
+pub(crate) const COUPLING: &str = "coupling";
 
 /// A definition of the registry.
 pub(crate) trait Definition {
@@ -110,7 +112,7 @@ fn names(specs: impl Iterator<Item = &'static Spec>) -> Vec<&'static str> {
     types
 }
 
-/// The types of joints with that of couplings, which have no definition.
+/// The types of joints with that of couplings.
 fn with_coupling(mut types: Vec<&'static str>) -> Vec<&'static str> {
     let at = types.partition_point(|known| *known < COUPLING);
     types.insert(at, COUPLING);

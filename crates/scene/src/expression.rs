@@ -20,8 +20,8 @@ pub(crate) use quantity::{Bases, Quantity};
 pub(crate) use term::law;
 use token::{Token, tokens};
 pub(crate) use token::{decimal, is_name};
-pub(crate) use unit::names_of;
 use unit::{UNITS, is_unit};
+pub(crate) use unit::{in_units_here, names_of};
 
 use crate::dimension::Dimension;
 

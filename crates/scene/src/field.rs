@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::rc::Rc;
 use std::slice;
 
-use joints::{LARGEST, is_usable};
+use joints::{LARGEST, Space3, is_usable};
 use linalg::Dd;
 use model::Law;
 use model::codes::Code;
@@ -332,6 +332,24 @@ impl<'t> Field<'t> {
         }
         let numbers = self.numbers(S::DIM, expected, |_| of, findings)?;
         S::of_numbers(&numbers)
+    }
+
+    /// A matrix: three rows of three numbers.
+    pub(crate) fn matrix(
+        &self,
+        expected: &str,
+        of: Dimension,
+        findings: &mut Findings,
+    ) -> Option<[[f64; 3]; 3]> {
+        let rows = self.items(expected, findings)?;
+        if rows.len() != 3 {
+            self.miscount(expected, rows.len(), 3, findings);
+            return None;
+        }
+        let rows = all(&rows, |row| {
+            row.vector::<Space3>("a row of three numbers", of, findings)
+        });
+        rows?.try_into().ok()
     }
 
     /// `n` points.

@@ -3,7 +3,7 @@
 use model::Force;
 
 use crate::active;
-use crate::body::Bodies;
+use crate::bodies::Bodies;
 use crate::connection;
 use crate::element::{self, Types};
 use crate::findings::Findings;

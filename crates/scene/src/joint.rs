@@ -10,7 +10,7 @@ use model::registry::ConstraintDefinition;
 use model::{BodyRef, Drive, Force, Function, Joint, Law};
 
 use crate::active;
-use crate::body::Bodies;
+use crate::bodies::Bodies;
 use crate::connection;
 use crate::dimension::Dimension;
 use crate::element::{self, Types};
@@ -93,6 +93,9 @@ impl<S: SceneSpace> Known<'_, S> {
         Some((bodies.clone(), arguments))
     }
 }
+
+/// What was read of a joint: all, or what drives and groups must know.
+pub(crate) type Read<'r, S> = (Known<'r, S>, Option<(Joint<S>, Entry)>);
 
 /// The joints that were read.
 pub(crate) struct Joints<'r, S: SceneSpace> {

@@ -11,7 +11,7 @@
 //! | `expression`, `dimension` | a text to a number with its dimension; what fits where |
 //! | `table`, `field`, `key` | a table that knows its keys; a value read as what is expected; what a key takes |
 //! | `space` | what the plane and space have different names and numbers for |
-//! | `body`, `marker`, `measure` | bodies and places on them, and their names elsewhere; quantities between places |
+//! | `body`, `marker`, `bodies`, `measure` | a body, places on bodies, and their names elsewhere; all of them; quantities between places |
 //! | `element` | common parts of joints and forces: type, `connection`, `place`, `direction`, `arguments` |
 //! | `joint`, `force` | joints and their drives; forces |
 //! | `active` | what is read and takes no part |
@@ -26,6 +26,7 @@
 mod active;
 mod arguments;
 mod between;
+mod bodies;
 mod body;
 mod combination;
 mod connection;

@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use joints::{Plane, Space3};
-use model::{BodyRef, Marker, SpaceKind};
+use model::{Marker, SpaceKind};
 
-use crate::body::{Bodies, read_orientation};
+use crate::body::{BodyNames, read_orientation};
 use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
@@ -18,7 +18,7 @@ use crate::table::Table;
 use crate::tolerance;
 use crate::units;
 
-const BODY: Key = Key::required("body", "the name of a body", Takes::Text)
+pub(crate) const BODY: Key = Key::required("body", "the name of a body", Takes::Text)
     .doc("The body that carries the marker, or `ground`");
 const POINT: Key = Key::pair("point")
     .expecting("a point [x, y]")
@@ -72,15 +72,16 @@ pub(crate) struct Markers {
 }
 
 impl Markers {
-    /// Reads one marker of the bodies.
+    /// Reads one marker of bodies with these names.
     pub(crate) fn read<S: SceneSpace>(
-        bodies: &mut Bodies<S>,
+        &mut self,
         mut table: Table,
         name: &str,
+        bodies: &BodyNames,
         findings: &mut Findings,
     ) {
         let body = table.required(&BODY, findings);
-        let body = body.and_then(|field| bodies.names.find(&field, findings));
+        let body = body.and_then(|field| bodies.find(&field, findings));
         let point = table.needed(POINT.name, S::POINT, findings);
         let point = point.and_then(|field| field.vector::<S>(S::POINT, POINT.unit, findings));
         let (mut angle, mut orientation) = (None, None);
@@ -95,17 +96,13 @@ impl Markers {
         let entry = Entry::of(name, &table);
         table.spaces(all_keys());
         table.close(findings);
-        let Self {
-            list,
-            entries,
-            by_name,
-        } = &mut bodies.markers;
-        let at = list.len();
+        let at = self.list.len();
         let is_turned = angle != Some(None) && orientation != Some(None);
         let read = body.zip(point).filter(|_| is_turned);
-        by_name.entry(name.to_owned()).or_insert(read.map(|_| at));
+        let index = read.map(|_| at);
+        self.by_name.entry(name.to_owned()).or_insert(index);
         if let Some((body, point)) = read {
-            list.push(Marker {
+            self.list.push(Marker {
                 name: name.to_owned(),
                 body,
                 point: S::point(point),
@@ -113,7 +110,7 @@ impl Markers {
                 orientation: orientation.flatten(),
                 tolerance,
             });
-            entries.push(entry);
+            self.entries.push(entry);
         }
     }
 
@@ -154,62 +151,5 @@ impl Markers {
     /// Like [`Self::index`], the marker itself.
     pub(crate) fn find(&self, field: &Field, findings: &mut Findings) -> Option<&Marker> {
         self.index(field, findings).map(|at| &self.list[at])
-    }
-}
-
-impl<S: SceneSpace> Bodies<S> {
-    /// Global coordinates of a marker in the described configuration.
-    pub(crate) fn global(&self, marker: &Marker) -> S::Vector<f64> {
-        let point = self.place_of(marker);
-        match marker.body {
-            BodyRef::Ground => point,
-            BodyRef::Body(k) => S::to_global(&self.list[k], point),
-        }
-    }
-
-    /// Place of a marker relative to the centre of mass of its body.
-    pub(crate) fn place_of(&self, marker: &Marker) -> S::Vector<f64> {
-        self.about_centre(marker.body, S::vector(marker.point))
-    }
-
-    /// Reports a marker where a point of another body is needed.
-    pub(crate) fn foreign(
-        &self,
-        marker: &Marker,
-        needed: BodyRef,
-        field: &Field,
-        findings: &mut Findings,
-    ) {
-        let name = &marker.name;
-        let advice = format!(
-            "a point of `{}` is needed; `at = \"{name}\"` takes the place where it is",
-            self.names.name(needed)
-        );
-        self.not_of_body(marker, &advice, field, findings);
-    }
-
-    /// Reports a marker that belongs to another body than the one that is needed.
-    pub(crate) fn not_of_body(
-        &self,
-        marker: &Marker,
-        needed: &str,
-        field: &Field,
-        findings: &mut Findings,
-    ) {
-        let (name, body) = (&marker.name, self.names.name(marker.body));
-        let own = self.markers.list.iter().zip(&self.markers.entries);
-        let found = own.clone().find(|(own, _)| own.name == marker.name);
-        let place = found.map_or_else(|| field.span(), |(_, entry)| entry.span(BODY.name));
-        findings.collision(
-            Mistake::ForeignMarker,
-            field.span(),
-            format!(
-                "{}: marker `{name}` belongs to `{body}`, and {needed}",
-                field.subject
-            ),
-            "not a marker of this body",
-            place,
-            "its body is given here",
-        );
     }
 }

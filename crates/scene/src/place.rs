@@ -8,7 +8,7 @@ use joints::spec::Spec;
 use joints::{LARGEST, is_usable};
 use model::{BodyRef, Marker};
 
-use crate::body::Bodies;
+use crate::bodies::Bodies;
 use crate::connection::listed;
 use crate::dimension::Dimension;
 use crate::field::Field;

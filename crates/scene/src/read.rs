@@ -12,7 +12,8 @@ use model::{
 use toml::de::DeTable;
 
 use crate::active;
-use crate::body::{Bodies, SceneBody};
+use crate::bodies::Bodies;
+use crate::body::SceneBody;
 use crate::combination::{ReactionNames, Reactions};
 use crate::dependent::{self, Found, Kind};
 use crate::diagnostic::Diagnostic;
@@ -25,7 +26,6 @@ use crate::key::{Key, Takes};
 use crate::language::{self, Language, LengthUnit, Units};
 use crate::limits;
 use crate::locate;
-use crate::marker::Markers;
 use crate::measure::Measures;
 use crate::mistake::Mistake;
 use crate::names::{Names, Use};
@@ -279,7 +279,9 @@ impl<'r, S: SceneBody> Parts<'r, S> {
         }
         for (table, name) in tables(root, &section::MARKER, findings) {
             names.bodies.push(Use::of(&name, &table));
-            Markers::read(bodies, table, &name, findings);
+            bodies
+                .markers
+                .read::<S>(table, &name, &bodies.names, findings);
         }
         for (table, name) in tables(root, &section::MEASURE, findings) {
             names.bodies.push(Use::of(&name, &table));

@@ -13,6 +13,7 @@ use serde_json::{Map, Value, json};
 
 use crate::active::ACTIVE;
 use crate::body::SceneBody;
+use crate::element::COUPLING;
 use crate::function::{KINDS, STEP_KEYS};
 use crate::joint::{DRIVE_KEYS, MEASURE};
 use crate::key::{Interval, Key, TYPE};
@@ -129,7 +130,7 @@ fn with_coupling(mut joints: Value) -> Value {
     let keys = [&coupling::KEYS[..], &[tolerance::OF_JOINT, ACTIVE]].concat();
     let mut own = named("Joint `coupling`", &keys);
     own["properties"][TYPE] = json!({
-        "const": coupling::COUPLING,
+        "const": COUPLING,
         "description": "A measure of one joint follows a measure of another",
     });
     require(&mut own, TYPE);

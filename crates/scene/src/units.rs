@@ -4,32 +4,8 @@
 use linalg::Dd;
 
 use crate::dimension::Dimension;
-use crate::expression::evaluate;
+use crate::expression::{evaluate, in_units_here};
 use crate::language::Language;
-
-/// Units that expressions do not have, in theirs.
-const OTHERS: [(&str, &str); 14] = [
-    ("km", "1e3 m"),
-    ("t", "1e3 kg"),
-    ("km/h", "1e3 m/(60 min)"),
-    ("kNm", "kN*m"),
-    ("Nm", "N*m"),
-    ("Nmm", "N*mm"),
-    ("kgm²", "kg*m²"),
-    ("%", "1/100"),
-    ("degree", "deg"),
-    ("degrees", "deg"),
-    ("Hz", "1/s"),
-    ("h", "60 min"),
-    ("rpm", "2*pi/min"),
-    ("1/min", "2*pi/min"),
-];
-
-/// A unit that expressions do not have, in theirs.
-pub(crate) fn here(unit: &str) -> Option<&'static str> {
-    let mut known = OTHERS.iter();
-    known.find_map(|(name, here)| (*name == unit).then_some(*here))
-}
 
 /// A number with a unit, as `300 mm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,8 +62,7 @@ pub(crate) fn advice(text: &str) -> Option<String> {
     let (number, between, unit) = split(text)?;
     const RULE: &str =
         "numbers stand in SI and radians, or in quotes with `format = 2` in `[scene]`";
-    let other = OTHERS.iter().find(|(name, _)| *name == unit);
-    let of = other.map_or(unit, |(_, of)| of);
+    let of = in_units_here(unit).unwrap_or(unit);
     let Ok(value) = evaluate(&format!("{number}*({of})"), &Language::PLAIN) else {
         return Some(RULE.to_owned());
     };

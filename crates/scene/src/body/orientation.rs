@@ -3,7 +3,6 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use super::space3::matrix;
 use crate::dimension::Dimension;
 use crate::field::Field;
 use crate::findings::Findings;
@@ -145,7 +144,7 @@ fn about(
 
 /// The rotation next to a matrix: its orthogonal factor.
 fn rotation(field: &Field, findings: &mut Findings) -> Option<[f64; 4]> {
-    let rows = matrix(field, MATRIX_EXPECTED, Dimension::NONE, findings)?;
+    let rows = field.matrix(MATRIX_EXPECTED, Dimension::NONE, findings)?;
     let m = Matrix3::from_rows(&rows.map(|row| Vector3::from(row).transpose()));
     let svd = m.svd(true, true);
     let (Some(u), Some(v)) = (svd.u, svd.v_t) else {

@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::{SceneBody, orientation};
 use crate::dimension::Dimension;
-use crate::field::{self, Field};
+use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
@@ -111,7 +111,7 @@ impl SceneBody for Space3 {
 fn tensor(field: &Field, findings: &mut Findings) -> Option<[[f64; 3]; 3]> {
     let items = field.items(INERTIA.expected, findings)?;
     if items.iter().any(|row| row.value.get_ref().is_array()) {
-        return matrix(field, INERTIA.expected, INERTIA.unit, findings);
+        return field.matrix(INERTIA.expected, INERTIA.unit, findings);
     }
     // Not a vector: another number of moments belongs to no space.
     let moments = field.numbers(3, INERTIA.expected, |_| INERTIA.unit, findings)?;
@@ -128,22 +128,4 @@ fn tensor(field: &Field, findings: &mut Findings) -> Option<[[f64; 3]; 3]> {
         }
     }
     Some([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]])
-}
-
-/// Three rows of three numbers.
-pub(super) fn matrix(
-    field: &Field,
-    expected: &str,
-    of: Dimension,
-    findings: &mut Findings,
-) -> Option<[[f64; 3]; 3]> {
-    let rows = field.items(expected, findings)?;
-    if rows.len() != 3 {
-        field.miscount(expected, rows.len(), 3, findings);
-        return None;
-    }
-    let rows = field::all(&rows, |row| {
-        row.vector::<Space3>("a row of three numbers", of, findings)
-    });
-    rows?.try_into().ok()
 }

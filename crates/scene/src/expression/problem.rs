@@ -5,9 +5,8 @@ use std::ops::Range;
 use joints::LARGEST;
 use model::words::rounded;
 
-use super::unit::names_of;
+use super::unit::{in_units_here, names_of};
 use crate::dimension::Dimension;
-use crate::units;
 
 /// What is wrong, and where in the text.
 #[derive(Clone, Debug, PartialEq)]
@@ -117,11 +116,11 @@ impl Problem {
                 "expressions have numbers, names, units, `+ - * / ^` and `( )`".to_owned()
             }
             Self::NoOperand { found } if found == "*" => "powers are written with `^`".to_owned(),
-            Self::NoOperator { found } => match units::here(found) {
+            Self::NoOperator { found } => match in_units_here(found) {
                 Some(here) => format!("`{found}` is `{here}` here"),
                 None => format!("to multiply, write `*{found}`"),
             },
-            Self::UnknownName { name } => format!("`{name}` is `{}` here", units::here(name)?),
+            Self::UnknownName { name } => format!("`{name}` is `{}` here", in_units_here(name)?),
             Self::Comma => "decimals follow a point, as `2.5`".to_owned(),
             Self::Open => "write `)` where its content ends".to_owned(),
             Self::Deep { .. } | Self::Long { .. } => {

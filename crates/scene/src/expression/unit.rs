@@ -1,4 +1,4 @@
-//! The units of expressions.
+//! The units of expressions, and other units written in them.
 
 use std::f64::consts::PI;
 
@@ -30,4 +30,28 @@ pub(super) fn is_unit(name: &str) -> bool {
 pub(crate) fn names_of(of: Dimension) -> Vec<&'static str> {
     let fitting = UNITS.iter().filter(|(.., dimension)| *dimension == of);
     fitting.map(|(name, ..)| *name).collect()
+}
+
+/// Units that expressions do not have, in theirs.
+const OTHERS: [(&str, &str); 14] = [
+    ("km", "1e3 m"),
+    ("t", "1e3 kg"),
+    ("km/h", "1e3 m/(60 min)"),
+    ("kNm", "kN*m"),
+    ("Nm", "N*m"),
+    ("Nmm", "N*mm"),
+    ("kgm²", "kg*m²"),
+    ("%", "1/100"),
+    ("degree", "deg"),
+    ("degrees", "deg"),
+    ("Hz", "1/s"),
+    ("h", "60 min"),
+    ("rpm", "2*pi/min"),
+    ("1/min", "2*pi/min"),
+];
+
+/// A unit that expressions do not have, in theirs.
+pub(crate) fn in_units_here(unit: &str) -> Option<&'static str> {
+    let mut known = OTHERS.iter();
+    known.find_map(|(name, here)| (*name == unit).then_some(*here))
 }

@@ -1,0 +1,133 @@
+//! The bodies that were read, with their names and markers: points relative to the centres of mass
+//! of their bodies.
+
+use joints::{Plane, Space3};
+use model::{BodyRef, Marker, StartPose};
+
+use crate::body::{BodyNames, SceneBody};
+use crate::field::Field;
+use crate::findings::Findings;
+use crate::marker::{self, Markers};
+use crate::mistake::Mistake;
+use crate::space::SceneSpace;
+use crate::table::Table;
+
+/// The bodies that were read.
+pub(crate) struct Bodies<S: SceneSpace> {
+    pub(crate) list: Vec<S::Body>,
+    /// Where some of them start, if not where they are described.
+    pub(crate) poses: Vec<StartPose>,
+    pub(crate) names: BodyNames,
+    /// Their places by name.
+    pub(crate) markers: Markers,
+}
+
+impl<S: SceneSpace> Default for Bodies<S> {
+    fn default() -> Self {
+        Self {
+            list: Vec::new(),
+            poses: Vec::new(),
+            names: BodyNames::default(),
+            markers: Markers::default(),
+        }
+    }
+}
+
+impl<S: SceneSpace> Bodies<S> {
+    /// Reads one body. Numbers that cannot be read are zero; they have been reported.
+    pub(crate) fn read(&mut self, mut table: Table, name: &str, findings: &mut Findings)
+    where
+        S: SceneBody,
+    {
+        let body = S::read_body(&mut table, name, findings);
+        let start = table
+            .optional(&S::START)
+            .and_then(|field| field.table(S::START.expected, findings));
+        if let Some(mut start) = start {
+            self.poses.push(StartPose {
+                body: self.list.len(),
+                frame: S::read_start(&mut start, &body, findings),
+            });
+            start.close(findings);
+        }
+        self.list.push(body);
+        self.names.add(name, &table);
+        table.spaces(keys());
+        table.close(findings);
+    }
+
+    /// A point in the frame of a body relative to its centre of mass, as joints and forces take it;
+    /// for the ground the point itself.
+    pub(crate) fn about_centre(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
+        let described = body.moving().and_then(|at| self.list.get(at));
+        described.map_or(point, |body| S::from_centre(body, point))
+    }
+
+    /// A global point relative to the centre of mass of a body, in its axes.
+    pub(crate) fn to_local(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
+        let described = body.moving().and_then(|at| self.list.get(at));
+        described.map_or(point, |body| S::to_local(body, point))
+    }
+
+    /// Global coordinates of a marker in the described configuration.
+    pub(crate) fn global(&self, marker: &Marker) -> S::Vector<f64> {
+        let point = self.place_of(marker);
+        match marker.body {
+            BodyRef::Ground => point,
+            BodyRef::Body(k) => S::to_global(&self.list[k], point),
+        }
+    }
+
+    /// Place of a marker relative to the centre of mass of its body.
+    pub(crate) fn place_of(&self, marker: &Marker) -> S::Vector<f64> {
+        self.about_centre(marker.body, S::vector(marker.point))
+    }
+
+    /// Reports a marker where a point of another body is needed.
+    pub(crate) fn foreign(
+        &self,
+        marker: &Marker,
+        needed: BodyRef,
+        field: &Field,
+        findings: &mut Findings,
+    ) {
+        let name = &marker.name;
+        let advice = format!(
+            "a point of `{}` is needed; `at = \"{name}\"` takes the place where it is",
+            self.names.name(needed)
+        );
+        self.not_of_body(marker, &advice, field, findings);
+    }
+
+    /// Reports a marker that belongs to another body than the one that is needed.
+    pub(crate) fn not_of_body(
+        &self,
+        marker: &Marker,
+        needed: &str,
+        field: &Field,
+        findings: &mut Findings,
+    ) {
+        let (name, body) = (&marker.name, self.names.name(marker.body));
+        let own = self.markers.list.iter().zip(&self.markers.entries);
+        let found = own.clone().find(|(own, _)| own.name == marker.name);
+        let place = found.map_or_else(|| field.span(), |(_, entry)| entry.span(marker::BODY.name));
+        findings.collision(
+            Mistake::ForeignMarker,
+            field.span(),
+            format!(
+                "{}: marker `{name}` belongs to `{body}`, and {needed}",
+                field.subject
+            ),
+            "not a marker of this body",
+            place,
+            "its body is given here",
+        );
+    }
+}
+
+/// The keys of both spaces, each with the name of its space.
+fn keys() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let plane = Plane::BODY_KEYS.iter().map(|key| (key.name, Plane::NAME));
+    let space = Space3::BODY_KEYS.iter().map(|key| (key.name, Space3::NAME));
+    plane.chain(space)
+}

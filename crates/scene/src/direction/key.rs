@@ -1,0 +1,43 @@
+//! The keys of directions beside the parameters of a definition.
+
+use joints::spec::{Parameter, Shape, Spec};
+
+/// The axes in which directions are written.
+pub(crate) const FRAME: &str = "frame";
+/// A direction across an axis.
+pub(crate) const CROSS: &str = "cross";
+/// The axis in the frames of both bodies.
+pub(crate) const AXES: &str = "axes";
+
+/// Values of `frame`; the first is taken where it is not given.
+pub(crate) const FRAMES: [&str; 2] = ["body", "global"];
+
+/// Whether a definition has a parameter of this kind.
+fn has(spec: &Spec, is: impl Fn(&Parameter) -> bool) -> bool {
+    spec.parameters.iter().any(is)
+}
+
+/// The keys of a definition beside its parameters, in a space that carries directions.
+pub(crate) fn keys(spec: &Spec) -> impl Iterator<Item = &'static str> {
+    let is_written = |p: &Parameter| {
+        matches!(
+            p.shape,
+            Shape::Direction { .. } | Shape::Axes { like: None, .. }
+        ) && !p.optional
+    };
+    let has_axes = has(spec, |p| {
+        matches!(p.shape, Shape::Axes { .. }) && is_written(p)
+    });
+    let is_paired = has(spec, |p| {
+        matches!(p.shape, Shape::Axes { like: Some(_), .. })
+    });
+    let takes_cross = has_axes && !has(spec, |p| p.name == CROSS);
+    let keys = [
+        (FRAME, has(spec, is_written)),
+        (CROSS, takes_cross),
+        (AXES, has_axes && is_paired),
+    ];
+    keys.into_iter()
+        .filter(|(_, takes)| *takes)
+        .map(|(key, _)| key)
+}
