@@ -1,13 +1,8 @@
-//! What the numbers of a file are known to: half a unit of the finest decimal place that it writes.
+//! The finest decimal place that a file writes: half a unit of it is what its numbers are known to.
 //!
 //! A file does not say how many digits of its numbers count: `0.5` may be a half or a rounded
 //! number. The finest place among all lengths is what its writer could tell, so half a unit of it
 //! is their tolerance; the same for angles and directions.
-
-use crate::findings::Findings;
-use crate::limits::{COARSEST, FINEST};
-use crate::mechanism::Model;
-use crate::write::number;
 
 /// The finest decimal place of numbers of one kind.
 #[derive(Clone, Copy, Default)]
@@ -37,55 +32,6 @@ impl Digits {
     pub(crate) fn half_unit(self) -> Option<f64> {
         self.decimals.map(|decimals| 0.5 * 10_f64.powi(-decimals))
     }
-}
-
-/// The tolerances of lengths and of directions for the head of a scene, and why there is none.
-pub(crate) fn tolerances(model: &Model, findings: &mut Findings) -> [Option<f64>; 2] {
-    let size = size(model);
-    let length = findings.lengths.half_unit();
-    let angle = findings.directions.half_unit();
-    let fits = |known: Option<f64>, size: f64| {
-        known.filter(|known| (FINEST * size..=COARSEST * size).contains(known))
-    };
-    let found = [fits(length, size), fits(angle, 1.0)];
-    let names = ["lengths", "directions and angles"];
-    for ((name, known), unit) in names
-        .iter()
-        .zip([(length, found[0]), (angle, found[1])])
-        .zip(["m", "rad"])
-    {
-        let remark = match known {
-            (_, Some(told)) => format!(
-                "The finest digit of {name} is {} {unit}: they are taken to be known to half of it.",
-                number(2.0 * told)
-            ),
-            (Some(coarse), None) if coarse > FINEST * size.max(1.0) => format!(
-                "The digits of {name} are few: they are taken as exact. State a `tolerance` if they are not."
-            ),
-            _ => continue,
-        };
-        findings.remarks.push(remark);
-    }
-    found
-}
-
-/// Size of a model: the largest distance of a joint or link from the first link.
-fn size(model: &Model) -> f64 {
-    let Some(first) = model.links.first() else {
-        return 0.0;
-    };
-    let origin = first.pose.translation.vector;
-    let links = model.links.iter().map(|link| link.pose.translation.vector);
-    let joints = model.joints.iter().map(|joint| {
-        let pose = model.pose(joint.links[1]);
-        pose.translation.vector + pose.rotation * joint.points[1]
-    });
-    let centres = model
-        .links
-        .iter()
-        .map(|link| link.pose.translation.vector + link.pose.rotation * link.mass.centre);
-    let all = links.chain(joints).chain(centres);
-    all.fold(0.0, |most: f64, point| most.max((point - origin).norm()))
 }
 
 #[cfg(test)]

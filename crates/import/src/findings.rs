@@ -9,8 +9,10 @@ use scene::{Diagnostic, SourceText};
 use crate::angles::{Suspects, is_beyond_a_turn, is_common_in_radians};
 use crate::digits::Digits;
 use crate::limits::{LARGEST_NUMBER, MOST_PROBLEMS};
-use crate::vocabulary::EXPAND;
 use crate::xml::{Element, Value};
+
+/// How a file with macros becomes one without.
+pub(crate) const EXPAND: &str = "expand it with xacro: xacro robot.urdf.xacro > robot.urdf";
 
 /// A kind of fault of a file.
 #[derive(Clone, Copy)]

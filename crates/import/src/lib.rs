@@ -6,13 +6,14 @@
 //! | --- | --- |
 //! | `limits` | largest sizes |
 //! | `xml`, `files` | guarded parsing, elements with their places; included files |
+//! | `options` | how a file is imported |
 //! | `findings` | problems, what is left out, digits of numbers |
 //! | `vocabulary` | the names that a format knows; unknown ones are refused |
 //! | `mjcf`, `urdf` with `loops`, `sdf` | one reader for each format |
 //! | `solids` | what URDF and SDF share |
 //! | `mechanism`, `mass` | links, joints, couplings, keyframes; masses and simple solids |
 //! | `couple` | couplings that are not satisfied where the file describes the links |
-//! | `digits`, `angles` | what the numbers of a file are known to; angles in another unit |
+//! | `digits`, `tolerance`, `angles` | the decimal places of the numbers of a file, and what these are known to; angles in another unit |
 //! | `pose` | where links are for coordinates of joints |
 //! | `start`, `assemble` | where the scene starts: keyframes, poses at which loops are closed |
 //! | `axes` | axes that nearly are parallel or meet |
@@ -33,10 +34,12 @@ mod mechanism;
 mod merge;
 mod mjcf;
 mod names;
+mod options;
 mod pose;
 mod sdf;
 mod solids;
 mod start;
+mod tolerance;
 mod urdf;
 mod vocabulary;
 mod write;
@@ -47,75 +50,10 @@ use scene::{Diagnostic, SourceText};
 pub use axes::Axes;
 pub use files::Folder;
 pub use findings::Omission;
+pub use options::{Base, FixedLinks, Options};
 
 use findings::{Fault, Findings};
 use mechanism::Model;
-
-/// How a file is imported.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// Where included files are.
-    pub folder: Folder,
-    /// Whether links that are fixed to others stay bodies of their own.
-    pub fixed: FixedLinks,
-    /// What becomes of the root link of a URDF.
-    pub base: Base,
-    /// A file of loop closures of a URDF: its name and its text.
-    pub loops: Option<(String, String)>,
-    /// Values of coordinates of joints near which loops are closed: name of the joint and value (m
-    /// or rad), in the file's sense of the coordinate.
-    pub pose: Vec<(String, f64)>,
-    /// What is done with axes that nearly are parallel or meet.
-    pub axes: Axes,
-    /// The keyframe at which the scene starts; without it, where the file describes the links.
-    pub keyframe: Option<String>,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            folder: Folder::None,
-            fixed: FixedLinks::Merged,
-            base: Base::Fixed,
-            loops: None,
-            pose: Vec::new(),
-            axes: Axes::Told,
-            keyframe: None,
-        }
-    }
-}
-
-/// What becomes of links that are fixed to others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FixedLinks {
-    /// They are parts of the others, and markers there.
-    Merged,
-    /// They are bodies with a `fixed` joint.
-    Kept,
-}
-
-/// What becomes of the root link of a URDF, of which the format says nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Base {
-    /// It is fixed to the ground.
-    Fixed,
-    /// It is free.
-    Free,
-}
-
-impl Base {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Fixed, Self::Free];
-
-    /// Its name on a command line.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Fixed => "fixed",
-            Self::Free => "free",
-        }
-    }
-}
 
 /// A scene that was made of a file.
 #[derive(Clone, Debug)]
@@ -218,7 +156,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Box
     }
     check(&model, files.root(), &mut findings);
     couple::settle(&mut model, &mut findings);
-    let tolerance = digits::tolerances(&model, &mut findings);
+    let tolerance = tolerance::tolerances(&model, &mut findings);
     let motions = start::start(
         &mut model,
         options,

@@ -6,58 +6,29 @@ mod defaults;
 mod equality;
 mod geom;
 mod keyframe;
+mod mass;
 mod names;
+mod reader;
+mod source;
 
 use std::collections::{HashMap, HashSet};
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::Vector3;
 
 use crate::files::Files;
 use crate::findings::{Counted, Fault, Findings};
 use crate::limits::GRAVITY;
 use crate::mechanism::Model;
-use crate::xml::{Element, Value};
+use crate::xml::Element;
 use compiler::Compiler;
 use defaults::Defaults;
 pub(crate) use names::NAMES;
+use reader::Reader;
+use source::Source;
 
 /// What is left out with actuators that do nothing without a signal, and with others.
 const IDLE_ACTUATORS: &str = "actuators";
 const ACTING: &str = "actuators that act without a signal, too: accelerations differ";
-
-/// What several readers need.
-struct Reader<'a, 'f> {
-    files: &'a Files<'a>,
-    findings: &'f mut Findings,
-    compiler: Compiler,
-    defaults: Defaults<'a>,
-    model: Model,
-    /// Links by the names of their bodies; `world` is the ground.
-    bodies: HashMap<String, Option<usize>>,
-    /// Joint and coordinate of the joints of the file, by name.
-    joints: HashMap<String, (usize, usize)>,
-    /// Names that the file gives to joints.
-    names: HashSet<String>,
-    /// Tendons by name.
-    tendons: HashMap<String, Element<'a>>,
-    sites: HashMap<String, (Option<usize>, Isometry3<f64>)>,
-    /// Joint and coordinate of the joints of the file, in their order.
-    slots: Vec<(usize, usize)>,
-}
-
-/// An element with the attributes of its class.
-struct Attributes<'a, 'r> {
-    element: Element<'a>,
-    class: usize,
-    defaults: &'r Defaults<'a>,
-}
-
-impl<'a> Attributes<'a, '_> {
-    fn get(&self, key: &str) -> Option<Value<'a>> {
-        let own = self.element.attribute(key);
-        own.or_else(|| self.defaults.get(self.class, self.element.name(), key))
-    }
-}
 
 /// Reads a model. What is found is in `findings`.
 pub(crate) fn read<'a>(files: &'a Files<'a>, findings: &mut Findings) -> Model {
@@ -66,10 +37,12 @@ pub(crate) fn read<'a>(files: &'a Files<'a>, findings: &mut Findings) -> Model {
     let compiler = Compiler::read(&sections, findings);
     let defaults = Defaults::read(files, &sections, findings);
     let mut reader = Reader {
-        files,
-        findings,
-        compiler,
-        defaults,
+        source: Source {
+            files,
+            findings,
+            compiler,
+            defaults,
+        },
         model: Model::default(),
         bodies: HashMap::from([("world".to_owned(), None)]),
         joints: HashMap::new(),
@@ -112,15 +85,17 @@ impl<'a> Reader<'a, '_> {
         for (key, value) in section.attributes() {
             match key {
                 "gravity" => {
-                    if let Some(gravity) = self.findings.vector(&value, Counted::Not) {
+                    if let Some(gravity) = self.source.findings.vector(&value, Counted::Not) {
                         self.model.gravity = gravity;
                     }
                 }
                 "wind" | "density" | "viscosity" | "magnetic" => {
-                    let numbers = self.findings.numbers(&value, [1, 3], Counted::Not);
+                    let numbers = self.source.findings.numbers(&value, [1, 3], Counted::Not);
                     if numbers.is_some_and(|numbers| numbers.iter().any(|x| *x != 0.0)) {
                         let kind = "forces of a medium or field";
-                        self.findings.leave(kind, key, value.source, value.line());
+                        self.source
+                            .findings
+                            .leave(kind, key, value.source, value.line());
                     }
                 }
                 _ => {}
@@ -135,7 +110,7 @@ impl<'a> Reader<'a, '_> {
                             format!("{} disables what the scene would contain", value.subject);
                         let help = "remove the flag, or what it disables".to_owned();
                         let (source, span) = (value.source, value.span.clone());
-                        self.findings.fault_with_help(
+                        self.source.findings.fault_with_help(
                             Fault::Unsupported,
                             source,
                             span,
@@ -162,7 +137,7 @@ impl<'a> Reader<'a, '_> {
             _ => return,
         };
         let mut is_empty = true;
-        for child in self.files.children(section, self.findings) {
+        for child in self.source.children(section) {
             is_empty = false;
             let name = child.attribute("name").map(|name| name.text.to_owned());
             let subject = name.unwrap_or_else(|| format!("<{}>", child.name()));
@@ -171,10 +146,10 @@ impl<'a> Reader<'a, '_> {
                 "tendon" => self.tendon(child),
                 _ => left,
             };
-            self.findings.leave_element(left, child, &subject);
+            self.source.findings.leave_element(left, child, &subject);
         }
         if is_empty && section.attributes().next().is_some() {
-            self.findings.leave_element(left, section, "");
+            self.source.findings.leave_element(left, section, "");
         }
     }
 
@@ -191,7 +166,7 @@ impl<'a> Reader<'a, '_> {
         match element.name() {
             "motor" | "damper" | "adhesion" => IDLE_ACTUATORS,
             "general" => {
-                let bias = self.attributes(element, 0).get("biastype");
+                let bias = self.source.attributes(element, 0).get("biastype");
                 match bias.as_ref().map_or("none", |value| value.text.trim()) {
                     "none" => IDLE_ACTUATORS,
                     _ => ACTING,
@@ -207,26 +182,26 @@ impl<'a> Reader<'a, '_> {
         if section.name() != "tendon" {
             return;
         }
-        for child in self.files.children(section, self.findings) {
+        for child in self.source.children(section) {
             let Some(name) = child.attribute("name") else {
                 continue;
             };
             let name = name.text.trim().to_owned();
             if self.tendons.insert(name.clone(), child).is_some() {
                 let message = format!("the tendon `{name}` is there already");
-                self.findings.of(Fault::Twice, child, message);
+                self.source.findings.of(Fault::Twice, child, message);
             }
         }
     }
 
     /// What is left out with a tendon: springs, dampers and friction, too.
     fn tendon(&mut self, element: Element<'a>) -> &'static str {
-        let class = self.attributes(element, 0).class;
+        let class = self.source.attributes(element, 0).class;
         let acts = ["stiffness", "damping", "frictionloss", "armature"]
             .iter()
             .any(|key| {
                 let own = element.attribute(key);
-                let value = own.or_else(|| self.defaults.get(class, "tendon", key));
+                let value = own.or_else(|| self.source.defaults.get(class, "tendon", key));
                 value.is_some_and(|value| {
                     value.text.split_whitespace().any(|x| x.parse() != Ok(0.0))
                 })
@@ -236,47 +211,5 @@ impl<'a> Reader<'a, '_> {
         } else {
             "tendons"
         }
-    }
-
-    /// The class of an element: its own, or that of the body around it.
-    fn attributes(&mut self, element: Element<'a>, around: usize) -> Attributes<'a, '_> {
-        let class = match element.attribute("class") {
-            Some(value) => self.class(&value),
-            None => around,
-        };
-        Attributes {
-            element,
-            class,
-            defaults: &self.defaults,
-        }
-    }
-
-    /// The number of a class.
-    fn class(&mut self, value: &Value) -> usize {
-        self.defaults.find(value.text.trim()).unwrap_or_else(|| {
-            let message = format!("{}: there is no class `{}`", value.subject, value.text);
-            self.findings.at(Fault::Unknown, value, message);
-            0
-        })
-    }
-
-    /// The body of a value; `world` is the ground.
-    fn body(&mut self, value: &Value) -> Option<Option<usize>> {
-        let found = self.bodies.get(value.text.trim()).copied();
-        if found.is_none() {
-            let near = scene::nearest(value.text, self.bodies.keys().map(String::as_str));
-            let help = near.map(|near| format!("did you mean `{near}`?"));
-            let message = format!("{}: there is no body `{}`", value.subject, value.text);
-            let (source, span) = (value.source, value.span.clone());
-            self.findings.fault_with_help(
-                Fault::Unknown,
-                source,
-                span,
-                message,
-                "no such body",
-                help,
-            );
-        }
-        found
     }
 }

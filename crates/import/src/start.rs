@@ -8,9 +8,9 @@ use crate::couple;
 use crate::findings::{Fault, Findings};
 use crate::limits::{ASSEMBLED, HELD, OPEN};
 use crate::mechanism::{Joint, Model, State};
+use crate::options::{Base, Options};
 use crate::pose::{self, Motion};
 use crate::xml::Element;
-use crate::{Base, Options};
 
 /// The state at which the scene starts, and whether it has velocities; `None` if it starts as
 /// described. `angle` is what angles of the file are known to.

@@ -7,13 +7,14 @@ use std::collections::HashMap;
 use nalgebra::{Isometry3, Vector3};
 
 use crate::findings::{Counted, Fault, Findings};
+use crate::loops;
 use crate::mass::Mass;
 use crate::mechanism::{Coupling, Joint, Kind, Link, Load, Model};
+use crate::options::Base;
 use crate::pose::quaternion;
 use crate::sdf;
 use crate::solids::{FRICTION, assume_gravity, roll_pitch_yaw, tensor};
 use crate::xml::{Element, Value};
-use crate::{Base, loops};
 pub(crate) use names::NAMES;
 
 /// A joint of the file.

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use crate::files::Files;
-use crate::findings::{Fault, Findings};
+use crate::findings::{EXPAND, Fault, Findings};
 use crate::limits::{MOST_LISTED, SHOWN};
 use crate::xml::Element;
 
@@ -201,9 +201,6 @@ fn foreign(entry: &Entry, around: Element, child: Element, findings: &mut Findin
     };
     findings.leave_element(EXTENSIONS, child, &subject);
 }
-
-/// How a file with macros becomes one without.
-pub(crate) const EXPAND: &str = "expand it with xacro: xacro robot.urdf.xacro > robot.urdf";
 
 /// An element that is left out, in words: its name, or what it is and of what.
 fn subject(around: Element, child: Element) -> String {

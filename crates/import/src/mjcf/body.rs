@@ -1,23 +1,16 @@
-//! `<worldbody>`, `<body>`, `<frame>`, `<joint>`, `<inertial>`, `<site>`.
+//! `<worldbody>`, `<body>`, `<joint>`, `<site>`.
 
-use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-use super::Reader;
 use super::geom::Geoms;
+use super::reader::Reader;
+use super::source::Item;
 use crate::findings::{Counted, Fault, unit};
 use crate::limits::{DEEPEST, PERPENDICULAR};
 use crate::mass::Mass;
 use crate::mechanism::{Frame, Joint, Kind, Link, Load};
 use crate::solids::FRICTION;
 use crate::xml::Element;
-
-/// An element of a body, with the place of the frames around it and its class.
-#[derive(Clone)]
-pub(super) struct Item<'a> {
-    pub(super) element: Element<'a>,
-    pub(super) frame: Isometry3<f64>,
-    pub(super) class: usize,
-}
 
 /// A joint of the file, in the axes of its body.
 struct Freedom {
@@ -32,10 +25,11 @@ struct Freedom {
 impl<'a> Reader<'a, '_> {
     pub(super) fn world(&mut self, section: Element<'a>) {
         let mut items = Vec::new();
-        self.items(section, Isometry3::identity(), 0, &mut items, 0);
+        self.source
+            .items(section, Isometry3::identity(), 0, &mut items, 0);
         for item in &items {
             match item.element.name() {
-                "geom" => self.contact_of(item),
+                "geom" => self.source.contact_of(item),
                 "site" => self.site(item, None),
                 _ => {}
             }
@@ -45,70 +39,21 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// The elements of a body, those within frames included.
-    fn items(
-        &mut self,
-        around: Element<'a>,
-        frame: Isometry3<f64>,
-        class: usize,
-        out: &mut Vec<Item<'a>>,
-        depth: usize,
-    ) {
-        if depth > DEEPEST {
-            return self
-                .findings
-                .of(Fault::Structure, around, "frames are nested too deeply");
-        }
-        for element in self.files.children(around, self.findings) {
-            match element.name() {
-                "frame" => {
-                    let get = |key: &str| element.attribute(key);
-                    let own = self.compiler.pose(get, self.findings);
-                    let class = match element.attribute("childclass") {
-                        Some(value) => self.class(&value),
-                        None => class,
-                    };
-                    self.items(element, frame * own, class, out, depth + 1);
-                }
-                "body" | "joint" | "freejoint" | "geom" | "site" | "inertial" => {
-                    out.push(Item {
-                        element,
-                        frame,
-                        class,
-                    });
-                }
-                "composite" | "flexcomp" | "replicate" | "attach" => {
-                    let message = format!("`<{}>` makes bodies that are not read", element.name());
-                    let help = "load the file in MuJoCo, save it with mj_saveLastXML, and import what is saved";
-                    let (source, span) = (element.source, element.span());
-                    let fault = Fault::Unsupported;
-                    self.findings.fault_with_help(
-                        fault,
-                        source,
-                        span,
-                        message,
-                        "",
-                        help.to_owned(),
-                    );
-                }
-                _ => {}
-            }
-        }
-    }
-
     fn body_element(&mut self, item: &Item<'a>, parent: Option<usize>, depth: usize) {
         let element = item.element;
         if depth > DEEPEST {
-            return self
-                .findings
-                .of(Fault::Structure, element, "bodies are nested too deeply");
+            return self.source.findings.of(
+                Fault::Structure,
+                element,
+                "bodies are nested too deeply",
+            );
         }
         let class = match element.attribute("childclass") {
-            Some(value) => self.class(&value),
+            Some(value) => self.source.class(&value),
             None => item.class,
         };
         let get = |key: &str| element.attribute(key);
-        let own = item.frame * self.compiler.pose(get, self.findings);
+        let own = item.frame * self.source.compiler.pose(get, self.source.findings);
         let name = element
             .attribute("name")
             .map(|name| name.text.trim().to_owned());
@@ -121,29 +66,30 @@ impl<'a> Reader<'a, '_> {
             .is_some_and(|value| value.text.trim() == "true")
         {
             let kind = "motions from outside (mocap): the body is fixed to the ground";
-            self.findings.leave_element(kind, element, &name);
+            self.source.findings.leave_element(kind, element, &name);
         }
         let mut items = Vec::new();
-        self.items(element, Isometry3::identity(), class, &mut items, 0);
+        self.source
+            .items(element, Isometry3::identity(), class, &mut items, 0);
         let freedoms: Vec<Freedom> = items
             .iter()
             .filter(|item| matches!(item.element.name(), "joint" | "freejoint"))
             .filter_map(|item| self.freedom(item, &name, parent.is_none()))
             .collect();
-        let mass = self.mass(element, &items);
+        let mass = self.source.mass(element, &items);
         let held = element.attribute("gravcomp");
-        let held = held.and_then(|value| self.findings.number(&value, Counted::Not));
+        let held = held.and_then(|value| self.source.findings.number(&value, Counted::Not));
         let link = self.chain(&name, own, freedoms, parent);
         self.model.links[link].mass = mass;
         self.model.links[link].held_weight = held.unwrap_or(0.0);
         if self.bodies.insert(name.clone(), Some(link)).is_some() {
             let message = format!("the body `{name}` is there already");
-            self.findings.of(Fault::Twice, element, message);
+            self.source.findings.of(Fault::Twice, element, message);
         }
         for item in &items {
             match item.element.name() {
                 "site" => self.site(item, Some(link)),
-                "geom" => self.contact_of(item),
+                "geom" => self.source.contact_of(item),
                 _ => {}
             }
         }
@@ -258,9 +204,9 @@ impl<'a> Reader<'a, '_> {
         let name = given.unwrap_or_else(|| format!("joint {count} of {body}"));
         if is_given && !self.names.insert(name.clone()) {
             let message = format!("the joint `{name}` is there already");
-            self.findings.of(Fault::Twice, element, message);
+            self.source.findings.of(Fault::Twice, element, message);
         }
-        let attributes = self.attributes(element, item.class);
+        let attributes = self.source.attributes(element, item.class);
         let keys = [
             "type",
             "pos",
@@ -292,45 +238,47 @@ impl<'a> Reader<'a, '_> {
             (_, other) => {
                 let shown: String = other.chars().take(40).collect();
                 let message = format!("joint `{name}`: there is no type `{shown}`");
-                self.findings.of(Fault::Value, element, message);
+                self.source.findings.of(Fault::Value, element, message);
                 return None;
             }
         };
         if kind == Kind::Free && !is_outer {
             let message = format!("joint `{name}`: only bodies of the world may be free");
-            self.findings.of(Fault::Structure, element, message);
+            self.source.findings.of(Fault::Structure, element, message);
             return None;
         }
         let is_free_element = element.name() == "freejoint";
-        let point = pos.and_then(|value| self.findings.vector(&value, Counted::Length));
+        let point = pos.and_then(|value| self.source.findings.vector(&value, Counted::Length));
         let axis = match axis {
             Some(value) if matches!(kind, Kind::Revolute | Kind::Translational) => {
-                self.findings.direction(&value)?
+                self.source.findings.direction(&value)?
             }
             _ => Vector3::z(),
         };
         let angle = if kind == Kind::Revolute {
-            self.compiler.angle
+            self.source.compiler.angle
         } else {
             1.0
         };
         let mut number = |value: Option<crate::xml::Value<'a>>| {
-            let number = value.map(|value| self.findings.numbers(&value, [1, 16], Counted::Not));
+            let number =
+                value.map(|value| self.source.findings.numbers(&value, [1, 16], Counted::Not));
             number.flatten().unwrap_or_else(|| vec![0.0])
         };
         let of_angle = [&zero, &reference, &range].map(|value| (*value).clone());
         let [zero, reference] = [number(zero)[0] * angle, number(reference)[0] * angle];
         let [stiffness, damping, armature] = [number(stiffness), number(damping), number(armature)];
-        if kind == Kind::Revolute && self.compiler.angle != 1.0 {
+        if kind == Kind::Revolute && self.source.compiler.angle != 1.0 {
             for value in of_angle.iter().flatten() {
                 let words = value.text.split_whitespace();
                 let angles: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
-                self.findings.look_for_radians(value, &angles);
+                self.source.findings.look_for_radians(value, &angles);
             }
         }
         let line = element.line();
         let mut leave = |kind: &'static str| {
-            self.findings
+            self.source
+                .findings
                 .leave(kind, name.clone(), element.source, line);
         };
         if stiffness[1..]
@@ -349,7 +297,8 @@ impl<'a> Reader<'a, '_> {
             range.is_some() || limited.as_ref().is_some_and(|v| v.text.trim() == "true");
         let is_off = limited.as_ref().is_some_and(|v| v.text.trim() == "false");
         let is_on = limited.as_ref().is_some_and(|v| v.text.trim() == "true");
-        if has_range && !is_off && (self.compiler.auto_limits || is_on) && kind != Kind::Free {
+        if has_range && !is_off && (self.source.compiler.auto_limits || is_on) && kind != Kind::Free
+        {
             leave("limits of joints");
         }
         if friction.is_some_and(|value| value.text.trim().parse() != Ok(0.0)) && !is_free_element {
@@ -367,7 +316,7 @@ impl<'a> Reader<'a, '_> {
         {
             let message =
                 format!("joint `{name}`: stiffness, damping and armature are not negative");
-            self.findings.of(Fault::Range, element, message);
+            self.source.findings.of(Fault::Range, element, message);
             return None;
         }
         if kind == Kind::Free {
@@ -410,87 +359,9 @@ impl<'a> Reader<'a, '_> {
         })
     }
 
-    /// Mass of a body: its own, or that of its geoms.
-    fn mass(&mut self, body: Element<'a>, items: &[Item<'a>]) -> Mass {
-        use super::compiler::FromGeoms;
-        let own = items.iter().find(|item| item.element.name() == "inertial");
-        let own = own.filter(|_| self.compiler.from_geoms != FromGeoms::Always);
-        let mass = match own {
-            Some(item) => self.inertial(item).unwrap_or_default(),
-            None if self.compiler.from_geoms == FromGeoms::Never => Mass::default(),
-            None => self.mass_of_geoms(body, items),
-        };
-        self.bounded(mass)
-    }
-
-    fn inertial(&mut self, item: &Item<'a>) -> Option<Mass> {
-        let element = item.element;
-        let get = |key: &str| element.attribute(key);
-        let Some(mass) = get("mass") else {
-            self.findings.missing(element, "a `mass`");
-            return None;
-        };
-        let mass = self.findings.not_negative(&mass, Counted::Not)?;
-        // The centre of mass is no place of a joint: its digits say nothing of them.
-        let centre = match get("pos") {
-            Some(value) => self.findings.vector(&value, Counted::Not)?,
-            None => Vector3::zeros(),
-        };
-        let digits = self.findings.directions;
-        let turned = self.compiler.orientation(get, self.findings);
-        self.findings.directions = digits;
-        let tensor = match (get("fullinertia"), get("diaginertia")) {
-            (Some(full), None) => {
-                let n = self.findings.numbers(&full, [6, 6], Counted::Not)?;
-                let [xx, yy, zz, xy, xz, yz] = [n[0], n[1], n[2], n[3], n[4], n[5]];
-                Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
-            }
-            (None, Some(diagonal)) => {
-                Matrix3::from_diagonal(&self.findings.vector(&diagonal, Counted::Not)?)
-            }
-            (Some(full), Some(_)) => {
-                let message = "`fullinertia` and `diaginertia` exclude each other";
-                self.findings.at(Fault::Value, &full, message);
-                return None;
-            }
-            (None, None) => {
-                self.findings
-                    .missing(element, "`diaginertia` or `fullinertia`");
-                return None;
-            }
-        };
-        let own = Mass::turned(mass, centre, turned, tensor);
-        Some(if item.frame == Isometry3::identity() {
-            own
-        } else {
-            own.seen(&item.frame)
-        })
-    }
-
-    /// The bounds of `<compiler>`, on the principal moments.
-    fn bounded(&self, mut mass: Mass) -> Mass {
-        let compiler = &self.compiler;
-        mass.mass = mass.mass.max(compiler.least_mass);
-        if compiler.least_inertia == 0.0 && !compiler.balances {
-            return mass;
-        }
-        let eigen = mass.inertia.symmetric_eigen();
-        let mut moments = eigen.eigenvalues.map(|x| x.max(compiler.least_inertia));
-        let [a, b, c] = [moments[0], moments[1], moments[2]];
-        if compiler.balances && (a + b < c || a + c < b || b + c < a) {
-            moments = Vector3::repeat((a + b + c) / 3.0);
-        }
-        if moments != eigen.eigenvalues {
-            let axes = eigen.eigenvectors;
-            mass.inertia = axes * Matrix3::from_diagonal(&moments) * axes.transpose();
-            mass.inertia = (mass.inertia + mass.inertia.transpose()) * 0.5;
-        }
-        mass
-    }
-
     /// Scales all masses, where `<compiler>` gives their sum.
     pub(super) fn finish_masses(&mut self, root: Element<'a>) {
-        let Some(total) = self.compiler.total_mass else {
+        let Some(total) = self.source.compiler.total_mass else {
             return;
         };
         let sum: f64 = self.model.links.iter().map(|link| link.mass.mass).sum();
@@ -502,16 +373,16 @@ impl<'a> Reader<'a, '_> {
                 "All masses are multiplied by {:.6} (settotalmass).",
                 total / sum
             );
-            self.findings.remarks.push(remark);
+            self.source.findings.remarks.push(remark);
         } else {
             let message = "`settotalmass` of bodies without mass";
-            self.findings.of(Fault::Range, root, message);
+            self.source.findings.of(Fault::Range, root, message);
         }
     }
 
     fn site(&mut self, item: &Item<'a>, link: Option<usize>) {
         let element = item.element;
-        let attributes = self.attributes(element, item.class);
+        let attributes = self.source.attributes(element, item.class);
         let ends = attributes.get("fromto");
         let keys = ["pos", "quat", "axisangle", "euler", "xyaxes", "zaxis"];
         let values = keys.map(|key| attributes.get(key));
@@ -520,9 +391,9 @@ impl<'a> Reader<'a, '_> {
                 .position(|k| *k == key)
                 .and_then(|k| values[k].clone())
         };
-        let mut pose = item.frame * self.compiler.pose(get, self.findings);
+        let mut pose = item.frame * self.source.compiler.pose(get, self.source.findings);
         if let Some(value) = ends {
-            let Some((middle, axes, _)) = Geoms::ends(&value, self.findings) else {
+            let Some((middle, axes, _)) = Geoms::ends(&value, self.source.findings) else {
                 return;
             };
             pose = item.frame * Isometry3::from_parts(middle.into(), axes);
@@ -533,7 +404,7 @@ impl<'a> Reader<'a, '_> {
         let name = name.text.trim().to_owned();
         if self.sites.insert(name.clone(), (link, pose)).is_some() {
             let message = format!("the site `{name}` is there already");
-            self.findings.of(Fault::Twice, element, message);
+            self.source.findings.of(Fault::Twice, element, message);
         }
         self.model.frames.push(Frame { name, link, pose });
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use super::Reader;
+use super::reader::Reader;
 use crate::findings::{Counted, Fault};
 use crate::mechanism::{Coupling, Joint, Kind};
 use crate::pose::quaternion;
@@ -11,12 +11,7 @@ use crate::xml::{Element, Value};
 impl<'a> Reader<'a, '_> {
     pub(super) fn equalities(&mut self, section: Element<'a>) {
         let mut lines = Vec::new();
-        for (k, element) in self
-            .files
-            .children(section, self.findings)
-            .into_iter()
-            .enumerate()
-        {
+        for (k, element) in self.source.children(section).into_iter().enumerate() {
             let name = element
                 .attribute("name")
                 .map(|name| name.text.trim().to_owned());
@@ -46,7 +41,7 @@ impl<'a> Reader<'a, '_> {
                 _ if !self.is_active(element) => {
                     let subject = format!("{name}, <{}>", element.name());
                     let kind = "constraints that are not active";
-                    self.findings.leave_element(kind, element, &subject);
+                    self.source.findings.leave_element(kind, element, &subject);
                 }
                 other => {
                     let message = format!(
@@ -57,7 +52,7 @@ impl<'a> Reader<'a, '_> {
             }
         }
         if !lines.is_empty() {
-            self.findings.remarks.push(format!(
+            self.source.findings.remarks.push(format!(
                 "Constraints of <equality> (line {}) are exact here; in MuJoCo they are soft.",
                 lines.join(", ")
             ));
@@ -68,23 +63,24 @@ impl<'a> Reader<'a, '_> {
     fn refuse(&mut self, element: Element<'a>, message: String) {
         let help = "give it active=\"false\" to leave it out".to_owned();
         let (source, span) = (element.source, element.span());
-        self.findings
+        self.source
+            .findings
             .fault_with_help(Fault::Unsupported, source, span, message, "", help);
     }
 
     fn is_active(&mut self, element: Element<'a>) -> bool {
         let value = self.equality_attribute(element, "active");
-        value.is_none_or(|value| self.findings.boolean(&value).unwrap_or(true))
+        value.is_none_or(|value| self.source.findings.boolean(&value).unwrap_or(true))
     }
 
     /// An attribute of an element, or of its class of `<equality>`.
     fn equality_attribute(&mut self, element: Element<'a>, key: &str) -> Option<Value<'a>> {
         let class = element
             .attribute("class")
-            .map_or(0, |value| self.class(&value));
+            .map_or(0, |value| self.source.class(&value));
         element
             .attribute(key)
-            .or_else(|| self.defaults.get(class, "equality", key))
+            .or_else(|| self.source.defaults.get(class, "equality", key))
     }
 
     /// `<connect>` and `<weld>`.
@@ -112,7 +108,8 @@ impl<'a> Reader<'a, '_> {
                 .then(|| joint([first, second], points, frames));
         }
         let Some(first) = element.attribute("body1") else {
-            self.findings
+            self.source
+                .findings
                 .missing(element, "`body1`, or `site1` and `site2`");
             return None;
         };
@@ -125,14 +122,14 @@ impl<'a> Reader<'a, '_> {
             return None;
         }
         let anchor = match element.attribute("anchor") {
-            Some(value) => Some(self.findings.vector(&value, Counted::Length)?),
+            Some(value) => Some(self.source.findings.vector(&value, Counted::Length)?),
             None => None,
         };
         let [a, b] = [first, second].map(|link| self.model.pose(link));
         let relation = b.inverse() * a;
         if !is_weld {
             let Some(anchor) = anchor else {
-                self.findings.missing(element, "an `anchor`");
+                self.source.findings.missing(element, "an `anchor`");
                 return None;
             };
             let other = (relation * Point3::from(anchor)).coords;
@@ -140,7 +137,7 @@ impl<'a> Reader<'a, '_> {
         }
         let given = element.attribute("relpose");
         let given = match given {
-            Some(value) => Some(self.findings.numbers(&value, [7, 7], Counted::Not)?),
+            Some(value) => Some(self.source.findings.numbers(&value, [7, 7], Counted::Not)?),
             None => None,
         };
         // A quaternion of zeros stands for the relation at the described pose.
@@ -164,7 +161,7 @@ impl<'a> Reader<'a, '_> {
     fn between(&mut self, element: Element<'a>, [first, second]: [Option<usize>; 2]) -> bool {
         if first == second {
             let message = "a constraint between a body and itself";
-            self.findings.of(Fault::Structure, element, message);
+            self.source.findings.of(Fault::Structure, element, message);
         }
         first != second
     }
@@ -173,7 +170,7 @@ impl<'a> Reader<'a, '_> {
         let found = self.sites.get(value.text.trim()).copied();
         if found.is_none() {
             let message = format!("{}: there is no site `{}`", value.subject, value.text);
-            self.findings.at(Fault::Unknown, value, message);
+            self.source.findings.at(Fault::Unknown, value, message);
         }
         found
     }
@@ -181,7 +178,7 @@ impl<'a> Reader<'a, '_> {
     /// `<joint>`: y − y₀ = P(x − x₀).
     fn coupling(&mut self, element: Element<'a>, name: String) -> Option<Coupling> {
         let Some(y) = element.attribute("joint1") else {
-            self.findings.missing(element, "`joint1`");
+            self.source.findings.missing(element, "`joint1`");
             return None;
         };
         let y = self.coordinate(&y)?;
@@ -191,7 +188,7 @@ impl<'a> Reader<'a, '_> {
         };
         let mut coefficients = vec![0.0, 1.0, 0.0, 0.0, 0.0];
         if let Some(value) = element.attribute("polycoef") {
-            let given = self.findings.numbers(&value, [1, 5], Counted::Not)?;
+            let given = self.source.findings.numbers(&value, [1, 5], Counted::Not)?;
             coefficients[..given.len()].copy_from_slice(&given);
         }
         let is_active = self.is_active(element);
@@ -209,7 +206,7 @@ impl<'a> Reader<'a, '_> {
     fn coupling_of_tendons(&mut self, element: Element<'a>, name: String) -> Option<Coupling> {
         let is_active = self.is_active(element);
         let Some(first) = element.attribute("tendon1") else {
-            self.findings.missing(element, "`tendon1`");
+            self.source.findings.missing(element, "`tendon1`");
             return None;
         };
         let first = self.length(element, &first)?;
@@ -219,7 +216,7 @@ impl<'a> Reader<'a, '_> {
         };
         let mut given = [0.0, 1.0, 0.0, 0.0, 0.0];
         if let Some(value) = element.attribute("polycoef") {
-            let numbers = self.findings.numbers(&value, [1, 5], Counted::Not)?;
+            let numbers = self.source.findings.numbers(&value, [1, 5], Counted::Not)?;
             given[..numbers.len()].copy_from_slice(&numbers);
         }
         let (x, y, coefficients) = match (first.as_slice(), second.as_deref()) {
@@ -239,7 +236,7 @@ impl<'a> Reader<'a, '_> {
         };
         if x == Some(y) {
             let message = "a constraint between a joint and itself";
-            self.findings.of(Fault::Structure, element, message);
+            self.source.findings.of(Fault::Structure, element, message);
             return None;
         }
         Some(Coupling {
@@ -259,7 +256,7 @@ impl<'a> Reader<'a, '_> {
     ) -> Option<Vec<((usize, usize), f64)>> {
         let Some(tendon) = self.tendons.get(name.text.trim()).copied() else {
             let message = format!("{}: there is no tendon `{}`", name.subject, name.text);
-            self.findings.at(Fault::Unknown, name, message);
+            self.source.findings.at(Fault::Unknown, name, message);
             return None;
         };
         if tendon.name() != "fixed" {
@@ -271,15 +268,15 @@ impl<'a> Reader<'a, '_> {
             return None;
         }
         let mut out = Vec::new();
-        for part in self.files.children(tendon, self.findings) {
+        for part in self.source.children(tendon) {
             let (Some(joint), Some(coefficient)) =
                 (part.attribute("joint"), part.attribute("coef"))
             else {
-                self.findings.missing(part, "a `joint` and a `coef`");
+                self.source.findings.missing(part, "a `joint` and a `coef`");
                 return None;
             };
             let joint = self.coordinate(&joint)?;
-            let coefficient = self.findings.number(&coefficient, Counted::Not)?;
+            let coefficient = self.source.findings.number(&coefficient, Counted::Not)?;
             if coefficient != 0.0 {
                 out.push((joint, coefficient));
             }
@@ -290,7 +287,7 @@ impl<'a> Reader<'a, '_> {
     fn coordinate(&mut self, value: &Value<'a>) -> Option<(usize, usize)> {
         let Some(found) = self.joints.get(value.text.trim()).copied() else {
             let message = format!("{}: there is no joint `{}`", value.subject, value.text);
-            self.findings.at(Fault::Unknown, value, message);
+            self.source.findings.at(Fault::Unknown, value, message);
             return None;
         };
         if self.model.joints[found.0]
@@ -303,7 +300,7 @@ impl<'a> Reader<'a, '_> {
                 "{}: `{}` is neither hinge nor slide",
                 value.subject, value.text
             );
-            self.findings.at(Fault::Structure, value, message);
+            self.source.findings.at(Fault::Structure, value, message);
             return None;
         }
         Some(found)

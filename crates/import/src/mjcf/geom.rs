@@ -2,8 +2,7 @@
 
 use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 
-use super::Reader;
-use super::body::Item;
+use super::source::{Item, Source};
 use crate::findings::{Counted, Fault, Findings, unit};
 use crate::limits::DENSITY;
 use crate::mass::{Mass, Solid};
@@ -35,7 +34,7 @@ impl Geoms {
     }
 }
 
-impl<'a> Reader<'a, '_> {
+impl<'a> Source<'a, '_> {
     pub(super) fn mass_of_geoms(&mut self, body: Element<'a>, items: &[Item<'a>]) -> Mass {
         let mut sum = Mass::default();
         for item in items.iter().filter(|item| item.element.name() == "geom") {

@@ -1,6 +1,6 @@
 //! `<keyframe>`: states by name.
 
-use super::Reader;
+use super::reader::Reader;
 use crate::findings::{Counted, Fault};
 use crate::mechanism::{Kind, State};
 use crate::xml::Element;
@@ -16,12 +16,7 @@ fn counts(kind: Kind) -> (usize, usize) {
 
 impl<'a> Reader<'a, '_> {
     pub(super) fn keyframes(&mut self, section: Element<'a>) {
-        for (k, element) in self
-            .files
-            .children(section, self.findings)
-            .into_iter()
-            .enumerate()
-        {
+        for (k, element) in self.source.children(section).into_iter().enumerate() {
             let name = element
                 .attribute("name")
                 .map(|name| name.text.trim().to_owned());
@@ -44,6 +39,7 @@ impl<'a> Reader<'a, '_> {
         let (n_q, n_v): (usize, usize) = (total(|c| c.0), total(|c| c.1));
         let mut read = |key: &str, n: usize| match element.attribute(key) {
             Some(value) => self
+                .source
                 .findings
                 .numbers(&value, [n, n], Counted::Not)
                 .map(Some),
@@ -74,7 +70,7 @@ impl<'a> Reader<'a, '_> {
                 let quaternion = &own[n - n.min(4)..];
                 if n > 1 && quaternion.iter().all(|x| *x == 0.0) {
                     let message = format!("the keyframe `{name}` has a quaternion of zeros");
-                    self.findings.of(Fault::Range, element, message);
+                    self.source.findings.of(Fault::Range, element, message);
                     return None;
                 }
                 out_q[*joint][*coordinate..*coordinate + n].copy_from_slice(own);

@@ -1,0 +1,120 @@
+//! The elements of a file, and the settings that say what their attributes mean.
+
+use nalgebra::Isometry3;
+
+use super::compiler::Compiler;
+use super::defaults::Defaults;
+use crate::files::Files;
+use crate::findings::{Fault, Findings};
+use crate::limits::DEEPEST;
+use crate::xml::{Element, Value};
+
+/// The elements of a file, and the settings that say what their attributes mean.
+pub(super) struct Source<'a, 'f> {
+    pub(super) files: &'a Files<'a>,
+    pub(super) findings: &'f mut Findings,
+    pub(super) compiler: Compiler,
+    pub(super) defaults: Defaults<'a>,
+}
+
+/// An element of a body, with the place of the frames around it and its class.
+#[derive(Clone)]
+pub(super) struct Item<'a> {
+    pub(super) element: Element<'a>,
+    pub(super) frame: Isometry3<f64>,
+    pub(super) class: usize,
+}
+
+/// An element with the attributes of its class.
+pub(super) struct Attributes<'a, 'r> {
+    element: Element<'a>,
+    pub(super) class: usize,
+    defaults: &'r Defaults<'a>,
+}
+
+impl<'a> Attributes<'a, '_> {
+    pub(super) fn get(&self, key: &str) -> Option<Value<'a>> {
+        let own = self.element.attribute(key);
+        own.or_else(|| self.defaults.get(self.class, self.element.name(), key))
+    }
+}
+
+impl<'a> Source<'a, '_> {
+    /// The elements within an element, with those of included files in their places.
+    pub(super) fn children(&mut self, element: Element<'a>) -> Vec<Element<'a>> {
+        self.files.children(element, self.findings)
+    }
+
+    /// The class of an element: its own, or that of the body around it.
+    pub(super) fn attributes(&mut self, element: Element<'a>, around: usize) -> Attributes<'a, '_> {
+        let class = match element.attribute("class") {
+            Some(value) => self.class(&value),
+            None => around,
+        };
+        Attributes {
+            element,
+            class,
+            defaults: &self.defaults,
+        }
+    }
+
+    /// The number of a class.
+    pub(super) fn class(&mut self, value: &Value) -> usize {
+        self.defaults.find(value.text.trim()).unwrap_or_else(|| {
+            let message = format!("{}: there is no class `{}`", value.subject, value.text);
+            self.findings.at(Fault::Unknown, value, message);
+            0
+        })
+    }
+
+    /// The elements of a body, those within frames included.
+    pub(super) fn items(
+        &mut self,
+        around: Element<'a>,
+        frame: Isometry3<f64>,
+        class: usize,
+        out: &mut Vec<Item<'a>>,
+        depth: usize,
+    ) {
+        if depth > DEEPEST {
+            return self
+                .findings
+                .of(Fault::Structure, around, "frames are nested too deeply");
+        }
+        for element in self.children(around) {
+            match element.name() {
+                "frame" => {
+                    let get = |key: &str| element.attribute(key);
+                    let own = self.compiler.pose(get, self.findings);
+                    let class = match element.attribute("childclass") {
+                        Some(value) => self.class(&value),
+                        None => class,
+                    };
+                    self.items(element, frame * own, class, out, depth + 1);
+                }
+                "body" | "joint" | "freejoint" | "geom" | "site" | "inertial" => {
+                    out.push(Item {
+                        element,
+                        frame,
+                        class,
+                    });
+                }
+                "composite" | "flexcomp" | "replicate" | "attach" => {
+                    let message = format!("`<{}>` makes bodies that are not read", element.name());
+                    let help = "load the file in MuJoCo, save it with mj_saveLastXML, and import what is saved";
+                    let (source, span) = (element.source, element.span());
+                    let fault = Fault::Unsupported;
+                    self.findings.fault_with_help(
+                        fault,
+                        source,
+                        span,
+                        message,
+                        "",
+                        help.to_owned(),
+                    );
+                }
+                _ => {}
+            }
+        }
+    }
+}
