@@ -14,6 +14,7 @@
 //! | `report.css`, `script/` | its looks, and what moves |
 
 mod comparison;
+mod curves;
 mod data;
 mod document;
 mod first_order;

@@ -15,6 +15,7 @@ mod document;
 mod error;
 mod journal;
 mod line;
+mod merged;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod records;

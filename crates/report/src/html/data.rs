@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use model::{Measure, Mechanism, SpaceKind, System};
+use model::{Mechanism, SpaceKind, System};
 use serde::Serialize;
 
 use super::comparison::{Comparison, Freedom};
-use super::first_order::{self, Motion, Stress};
-use super::run_page::{DriveCurve, RunPage};
+use super::curves::{Curves, largest};
+use super::first_order::FirstOrder;
+use super::run_page::RunPage;
 use crate::channel::Channel;
 use crate::documents::{EventDocument, ReactionDocument};
 use crate::figures::drawing::{DrawingModel, Stage};
@@ -15,12 +16,6 @@ use crate::recording::Frame;
 
 /// Largest number of joints and drives, and of bodies, that are drawn and plotted.
 pub(super) const DRAWN_MAX: usize = 1200;
-
-/// Largest number of measures that are plotted.
-pub(super) const MEASURES_MAX: usize = 24;
-
-/// Largest number of drives that are plotted.
-pub(super) const DRIVES_MAX: usize = 12;
 
 /// A force below this fraction of the largest one is rounding.
 const NOISE: f64 = 1e-12;
@@ -35,13 +30,11 @@ pub(super) struct Data<'a> {
     /// Names and units of the components of a reaction.
     components: Vec<(&'static str, &'static str)>,
     joints: Vec<Joint<'a>>,
-    pub(super) motions: Vec<Motion<'a>>,
-    pub(super) stresses: Vec<Stress<'a>>,
+    #[serde(flatten)]
+    pub(super) first_order: FirstOrder<'a>,
     comparisons: Vec<ComparisonData<'a>>,
-    measures: Vec<MeasureCurve<'a>>,
-    drives: Vec<Drive<'a>>,
-    energy: Energy,
-    residuals: Residuals,
+    #[serde(flatten)]
+    curves: Curves<'a>,
     events: &'a [EventDocument],
     /// Units of the scene for those of curves, with how many of them one SI unit is.
     units: BTreeMap<&'static str, (String, f64)>,
@@ -110,39 +103,6 @@ struct FreedomData {
     components: Vec<bool>,
     /// Whether they are free along the axes of the first body at some time.
     in_body: Vec<bool>,
-}
-
-#[derive(Serialize)]
-struct MeasureCurve<'a> {
-    name: &'a str,
-    text: String,
-    unit: &'static str,
-    value: Channel,
-}
-
-#[derive(Serialize)]
-struct Drive<'a> {
-    name: &'a str,
-    text: &'a str,
-    unit: &'static str,
-    value: Channel,
-}
-
-#[derive(Serialize)]
-struct Energy {
-    kinetic: Channel,
-    potential: Channel,
-    work: Channel,
-    /// log₁₀ of |E − E₀ − work| relative to the largest kinetic energy.
-    gap: Channel,
-}
-
-#[derive(Serialize)]
-struct Residuals {
-    /// log₁₀ of the largest |Φ|.
-    position: Channel,
-    /// log₁₀ of the largest |C·v − b|.
-    velocity: Channel,
 }
 
 /// A mechanism, or the part of it that is drawn.
@@ -214,7 +174,6 @@ impl<'a> Data<'a> {
         let frames = &page.recording.frames;
         let stage = cast.stage(page.mechanism, frames);
         let noise = noise(frames);
-        let measured = Measured::of(page.mechanism, frames);
         Self {
             name: page.mechanism.name(),
             t: frames.iter().map(|f| Time(f.t)).collect(),
@@ -229,20 +188,13 @@ impl<'a> Data<'a> {
                 .iter()
                 .map(|&k| joint(page, k, noise))
                 .collect(),
-            motions: first_order::motions(page, cast),
-            stresses: first_order::stresses(page, cast),
+            first_order: FirstOrder::of(page, cast),
             comparisons: page
                 .comparisons
                 .iter()
                 .filter_map(|c| comparison(c, cast, page.mechanism.space(), noise))
                 .collect(),
-            measures: measures(page),
-            drives: page.drives.iter().take(DRIVES_MAX).map(drive).collect(),
-            energy: measured.energy(),
-            residuals: Residuals {
-                position: logarithmic(measured.position.iter().copied()),
-                velocity: logarithmic(measured.velocity.iter().copied()),
-            },
+            curves: Curves::of(page),
             units: ["m", "rad", "m/s", "rad/s"]
                 .into_iter()
                 .filter_map(|si| Some((si, page.scene.unit(si)?)))
@@ -381,107 +333,6 @@ fn unwound(freedom: impl Iterator<Item = Freedom>) -> Vec<f64> {
             last
         })
         .collect()
-}
-
-/// The measures at the frames.
-fn measures<'a>(page: &RunPage<'a>) -> Vec<MeasureCurve<'a>> {
-    let (mechanism, frames) = (page.mechanism, &page.recording.frames);
-    let observed = mechanism.frames().observed();
-    let name = |of: Option<usize>| of.map_or("ground", |k| observed.markers[k].name.as_str());
-    let measures = observed.measures.iter().take(MEASURES_MAX).enumerate();
-    let curve = |(k, measure): (usize, &'a Measure)| {
-        let [first, second] = measure.between.map(name);
-        MeasureCurve {
-            name: &measure.name,
-            text: format!("{} of {second} from {first}", measure.kind.name()),
-            unit: measure.kind.unit(),
-            value: Channel::new(
-                frames
-                    .iter()
-                    .map(|f| mechanism.frames().measure(k, &f.q, &f.v)),
-            ),
-        }
-    };
-    measures.map(curve).collect()
-}
-
-fn drive(curve: &DriveCurve) -> Drive<'_> {
-    Drive {
-        name: &curve.name,
-        text: &curve.text,
-        unit: curve.unit,
-        value: Channel::new(curve.values.iter().copied()),
-    }
-}
-
-/// Energies and residuals at the frames.
-struct Measured {
-    kinetic: Vec<f64>,
-    potential: Vec<f64>,
-    work: Vec<f64>,
-    position: Vec<f64>,
-    velocity: Vec<f64>,
-}
-
-impl Measured {
-    fn of(mechanism: &Mechanism, frames: &[Frame]) -> Self {
-        let mut measured = Self {
-            kinetic: frames
-                .iter()
-                .map(|f| mechanism.kinetic_energy(&f.v))
-                .collect(),
-            potential: frames
-                .iter()
-                .map(|f| mechanism.potential_energy(&f.q))
-                .collect(),
-            work: frames.iter().map(|f| f.work).collect(),
-            position: Vec::with_capacity(frames.len()),
-            velocity: Vec::with_capacity(frames.len()),
-        };
-        let layout = mechanism.layout();
-        let mut s = mechanism.scratch();
-        for frame in frames {
-            // Rows at a break time show the values just before.
-            let breaks = layout
-                .break_times
-                .binary_search_by(|t| t.total_cmp(&frame.t));
-            let t = if breaks.is_ok() && frame.t > 0.0 {
-                frame.t.next_down()
-            } else {
-                frame.t
-            };
-            mechanism.pose(t, &frame.q, &mut s);
-            mechanism.phi(&mut s);
-            mechanism.c(&mut s);
-            mechanism.b(&mut s);
-            let rows = 0..layout.rows();
-            let residuals = rows.map(|i| layout.velocity_residual(&s, i, &frame.v));
-            measured.velocity.push(largest(residuals));
-            measured.position.push(largest(s.phi.iter().copied()));
-        }
-        measured
-    }
-
-    fn energy(&self) -> Energy {
-        let largest_kinetic = largest(self.kinetic.iter().copied());
-        let total = |k: usize| self.kinetic[k] + self.potential[k] - self.work[k];
-        let gap = (0..self.work.len()).map(|k| (total(k) - total(0)) / largest_kinetic);
-        Energy {
-            kinetic: Channel::new(self.kinetic.iter().copied()),
-            potential: Channel::new(self.potential.iter().copied()),
-            work: Channel::new(self.work.iter().copied()),
-            gap: logarithmic(gap),
-        }
-    }
-}
-
-/// log₁₀ of sizes; zero is a gap.
-fn logarithmic(values: impl Iterator<Item = f64> + Clone) -> Channel {
-    Channel::new(values.map(|x| x.abs().log10()))
-}
-
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |a, x| if x.abs() > a { x.abs() } else { a })
 }
 
 /// Size of a force that is rounding (N); torques about places are compared with it, too.

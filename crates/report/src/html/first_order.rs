@@ -34,8 +34,25 @@ pub(super) struct Stress<'a> {
     wrenches: Vec<Vec<Rounded>>,
 }
 
+/// What can be chosen for the picture.
+#[derive(Serialize)]
+pub(super) struct FirstOrder<'a> {
+    pub(super) motions: Vec<Motion<'a>>,
+    pub(super) stresses: Vec<Stress<'a>>,
+}
+
+impl<'a> FirstOrder<'a> {
+    /// That of a page, as far as bodies and joints are drawn.
+    pub(super) fn of(page: &'a RunPage<'_>, cast: &Cast) -> Self {
+        Self {
+            motions: motions(page, cast),
+            stresses: stresses(page, cast),
+        }
+    }
+}
+
 /// The free motions of a page, as far as their bodies are drawn.
-pub(super) fn motions<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Motion<'a>> {
+fn motions<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Motion<'a>> {
     let bodies = page.mechanism.bodies();
     let place: HashMap<&str, usize> = (0..)
         .zip(cast.bodies())
@@ -66,7 +83,7 @@ pub(super) fn motions<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Motion<'a>>
 }
 
 /// The self-stresses of a page whose joints are all drawn.
-pub(super) fn stresses<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Stress<'a>> {
+fn stresses<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Stress<'a>> {
     let (Some(analysis), Some(frame)) = (page.analysis, page.recording.frames.first()) else {
         return Vec::new();
     };

@@ -3,6 +3,7 @@
 
 use model::System;
 
+use super::curves;
 use super::data::{self, Cast};
 use super::run_page::RunPage;
 use crate::documents::{MisfitDocument, RunDocument};
@@ -148,16 +149,16 @@ fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
         ));
     }
     let measures = page.mechanism.frames().observed().measures.len();
-    if measures > data::MEASURES_MAX {
+    if measures > curves::MEASURES_MAX {
         told.push(format!(
             "{} of {measures} measures are plotted; trajectory.csv has all.",
-            data::MEASURES_MAX
+            curves::MEASURES_MAX
         ));
     }
-    if page.drives.len() > data::DRIVES_MAX {
+    if page.drives.len() > curves::DRIVES_MAX {
         told.push(format!(
             "{} of {} drives are plotted.",
-            data::DRIVES_MAX,
+            curves::DRIVES_MAX,
             page.drives.len()
         ));
     }

@@ -4,6 +4,7 @@
 use model::SpaceKind;
 
 use super::data::Data;
+use super::first_order::FirstOrder;
 use super::run_page::RunPage;
 use crate::page::{add, safe};
 
@@ -81,7 +82,7 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
         out.push_str(OF_RUN);
     }
     out.push_str("</aside>\n</div>\n");
-    first_order(out, data);
+    first_order(out, &data.first_order);
     out.push_str(
         "<p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
          are unknown. ",
@@ -94,17 +95,17 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
 }
 
 /// Choices of free motions and self-stresses, if there are any.
-fn first_order(out: &mut String, data: &Data<'_>) {
-    if data.motions.is_empty() && data.stresses.is_empty() {
+fn first_order(out: &mut String, shown: &FirstOrder<'_>) {
+    if shown.motions.is_empty() && shown.stresses.is_empty() {
         return;
     }
     out.push_str("<div class=\"first-order\">\n");
-    if !data.motions.is_empty() {
+    if !shown.motions.is_empty() {
         out.push_str(
             "<fieldset class=\"option\"><legend>Free motions at the start</legend><div id=\"motions\"></div></fieldset>\n",
         );
     }
-    if !data.stresses.is_empty() {
+    if !shown.stresses.is_empty() {
         out.push_str(
             "<fieldset class=\"option\"><legend>Loads that cancel (self-stresses)</legend><select id=\"stress\" aria-label=\"Self-stress\">\
              <option value=\"\">none</option></select><div id=\"stress-loads\"></div></fieldset>\n",

@@ -4,14 +4,16 @@
 
 use std::fs::{self, File};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use super::line::{Entry, Head, line, record};
-use super::shards::{JOURNAL, Shards};
 use super::{JournalError, Runs, SweepPlan, SweepRow};
 use crate::files::FileError;
 use crate::files::process::Process;
+
+/// Extension of the names of journals.
+pub(super) const EXTENSION: &str = ".journal";
 
 /// If this time has passed since the journal was last synchronised with the disk, the next line
 /// synchronises it again; waiting for the disk takes longer than a short run. A power failure loses
@@ -31,11 +33,15 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Begins one for these runs.
-    pub(super) fn begin_in(shards: &Shards, runs: Runs) -> Result<Self, JournalError> {
+    /// Begins one for these runs in the folder of the shards of a plan with this digest.
+    pub(super) fn begin_in(
+        folder: &Path,
+        (plan, mark): (&SweepPlan, &str),
+        runs: Runs,
+    ) -> Result<Self, JournalError> {
         let process = Process::own();
         let head = Head {
-            plan: shards.mark.clone(),
+            plan: mark.to_owned(),
             runs: (runs.first(), runs.last()),
             by: Some(process.clone()),
         };
@@ -44,8 +50,8 @@ impl Journal {
             .unwrap_or_default()
             .as_micros();
         let (path, file) = loop {
-            let name = format!("{}.{}-{time}{JOURNAL}", shards.name(runs), process.name());
-            let path = shards.folder.join(name);
+            let (shard, process) = (runs.name(plan.runs), process.name());
+            let path = folder.join(format!("{shard}.{process}-{time}{EXTENSION}"));
             let mut options = File::options();
             match options.append(true).create_new(true).open(&path) {
                 Ok(file) => break (path, file),
@@ -57,7 +63,7 @@ impl Journal {
         let mut journal = Self {
             file,
             path,
-            plan: shards.plan.clone(),
+            plan: plan.clone(),
             synced: Instant::now(),
             has_ended: false,
         };

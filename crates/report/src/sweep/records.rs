@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::error::{Difference, same};
-use super::{Cell, JournalError, Runs, Shards, SweepPlan, SweepRows, SweepStatus};
+use super::error::Difference;
+use super::{Cell, JournalError, Runs, SweepPlan, SweepRows, SweepStatus};
 
 /// What is known of some runs.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,27 +38,6 @@ impl Records {
         rows.any(|cells| cells.get(status) != Some(&refused))
     }
 
-    /// Gathers what is known of all runs of a sweep in several directories.
-    ///
-    /// # Errors
-    /// Those of [`Shards::find`] and [`Shards::read`]; [`JournalError::Changed`] if they belong to
-    /// different sweeps.
-    pub fn merged<P: AsRef<Path>>(directories: &[P]) -> Result<Self, JournalError> {
-        let mut all: Option<Gathered> = None;
-        for directory in directories.iter().map(AsRef::as_ref) {
-            let shards = Shards::find(directory)?;
-            let gathered = all.get_or_insert_with(|| Gathered::new(shards.plan.clone()));
-            same(directory, &shards.plan, &gathered.records.plan)?;
-            if let Some(runs) = shards.all() {
-                shards.gather(runs, gathered)?;
-            }
-        }
-        let missing = || JournalError::Missing {
-            directory: PathBuf::new(),
-        };
-        Ok(all.ok_or_else(missing)?.records())
-    }
-
     /// Those of some runs that have no row.
     #[must_use]
     pub fn missing(&self, runs: Runs) -> Vec<Runs> {
@@ -72,7 +51,7 @@ impl Records {
 
 /// Records that grow.
 pub(super) struct Gathered {
-    records: Records,
+    pub(super) records: Records,
     pub(super) sealed: Vec<Runs>,
     columns: Columns,
     /// The files.

@@ -17,16 +17,15 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use super::error::{json, mark, same};
+use super::journal::{self, Journal};
 use super::line::{Entry, Head, intact, line, record};
 use super::records::Gathered;
-use super::{Journal, JournalError, Records, Runs, SweepPlan};
+use super::{JournalError, Records, Runs, SweepPlan};
 use crate::files::process::{Life, Process};
 use crate::files::{FileError, own_part};
 
 /// Extension of the names of finished shards.
 const ROWS: &str = ".rows";
-/// Extension of the names of journals.
-pub(super) const JOURNAL: &str = ".journal";
 /// Name of the plan.
 const PLAN: &str = "plan";
 /// Name of the folder.
@@ -39,8 +38,8 @@ const LOOKS: usize = 1000;
 /// The shards of a sweep in a directory.
 #[derive(Clone, Debug)]
 pub struct Shards {
-    pub(super) folder: PathBuf,
-    pub(super) plan: SweepPlan,
+    folder: PathBuf,
+    plan: SweepPlan,
     /// Digest of the plan.
     pub(super) mark: String,
 }
@@ -133,10 +132,6 @@ impl Shards {
         })
     }
 
-    pub(super) fn name(&self, runs: Runs) -> String {
-        runs.name(self.plan.runs)
-    }
-
     /// The files that are about some of these runs, in the order of their names.
     fn found(&self, wanted: Runs) -> Result<Vec<Found>, JournalError> {
         let refused = || FileError::refused("read", &self.folder);
@@ -148,7 +143,7 @@ impl Shards {
             let is_sealed = name.ends_with(ROWS);
             let runs = name.split('.').next().and_then(Runs::of_name);
             if let Some(runs) = runs.filter(|runs| runs.meets(wanted))
-                && (is_sealed || name.ends_with(JOURNAL))
+                && (is_sealed || name.ends_with(journal::EXTENSION))
             {
                 all.push(Found {
                     path: entry.path(),
@@ -293,7 +288,7 @@ impl Shards {
     /// # Errors
     /// [`JournalError::File`]: the operating system reported an error.
     pub fn begin(&self, runs: Runs) -> Result<Journal, JournalError> {
-        Journal::begin_in(self, runs)
+        Journal::begin_in(&self.folder, (&self.plan, &self.mark), runs)
     }
 
     /// Writes a finished shard. All of its runs have rows.
@@ -301,7 +296,7 @@ impl Shards {
     /// # Errors
     /// [`JournalError::File`]: it could not be written.
     pub fn seal(&self, runs: Runs, records: &Records) -> Result<(), JournalError> {
-        let path = self.folder.join(self.name(runs) + ROWS);
+        let path = self.folder.join(runs.name(self.plan.runs) + ROWS);
         let rows = || records.rows.range(runs.first()..=runs.last());
         #[cfg(feature = "parquet")]
         if Some(runs) != self.all() {
