@@ -15,6 +15,7 @@
 mod draw;
 mod error;
 mod failed;
+mod limits;
 mod nominal;
 mod quantity;
 mod sample;
@@ -34,18 +35,9 @@ use nominal::Nominal;
 
 pub use error::ToleranceError;
 pub use failed::Failed;
+pub use limits::{ROWS_MAX, SAMPLES, SAMPLES_MAX};
 pub use sample::{Assembled, Sample};
 pub use vary::{Variation, Varied};
-
-/// Largest number of rows: the rank of each sample is decided with dense matrices.
-pub const ROWS_MAX: usize = 600;
-
-/// Largest number of samples: all of them are held in memory.
-pub const SAMPLES_MAX: usize = 100_000;
-
-/// Samples if no other number is asked for: the range of the middle nine tenths is known to some
-/// percent.
-pub const SAMPLES: usize = 1000;
 
 /// Settings of the samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -57,7 +57,7 @@ impl ConfigurationAnalysis<'_> {
         }
         if let Some(explanation) = self.explanation()? {
             document.explain(&explanation, self.mechanism.layout());
-            self.add_centres(&mut document)?;
+            add_centres(&mut document, self)?;
         }
         if let Some(generic) = &generic {
             document.answers.continuation = self.continuation(generic)?.as_ref().map(Into::into);
@@ -79,21 +79,22 @@ impl ConfigurationAnalysis<'_> {
     }
 }
 
-impl ConfigurationAnalysis<'_> {
-    /// Adds the points about which moments of reactions in space are unique that are not about
-    /// their places. In the plane they are all points of a line of action.
-    fn add_centres(&self, document: &mut AnalysisDocument) -> Result<(), StudyError> {
-        let reactions = self.analysis.reactions.iter();
-        let open = |r: &&ReactionVerdict| {
-            r.space == SpaceKind::Space3 && r.wrench.verdict == Verdict::NotUnique
-        };
-        for reaction in reactions.filter(open) {
-            if let Some(centre) = self.centre_of_moments(reaction.id)? {
-                document.add_centre(reaction.id, reaction.space, centre);
-            }
+/// Adds the points about which moments of reactions in space are unique that are not about their
+/// places. In the plane they are all points of a line of action.
+fn add_centres(
+    document: &mut AnalysisDocument,
+    configuration: &ConfigurationAnalysis<'_>,
+) -> Result<(), StudyError> {
+    let reactions = configuration.analysis.reactions.iter();
+    let open = |r: &&ReactionVerdict| {
+        r.space == SpaceKind::Space3 && r.wrench.verdict == Verdict::NotUnique
+    };
+    for reaction in reactions.filter(open) {
+        if let Some(centre) = configuration.centre_of_moments(reaction.id)? {
+            document.add_centre(reaction.id, reaction.space, centre);
         }
-        Ok(())
     }
+    Ok(())
 }
 
 /// The configurations with which a singular one was compared. The motion need not reach them,

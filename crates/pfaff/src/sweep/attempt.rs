@@ -8,12 +8,28 @@ use dynamics::Stop;
 use report::sweep::{Journal, Records, Runs};
 use report::{SweepRow, SweepStatus};
 
-use super::make::{Keep, TOGETHER};
-use super::{Sweep, SweepError, SweepProgress, gate, run};
+use super::job::Keep;
+use super::make::TOGETHER;
+use super::varied::reason;
+use super::{Sweep, SweepError, gate};
 
 /// A run is the cause if its process has ended so often while it made no other run. Once may be an
 /// accident, or somebody who was impatient.
 const PROOF: u64 = 2;
+
+/// Progress of a sweep.
+#[derive(Clone, Copy, Debug)]
+pub enum SweepProgress<'a> {
+    /// It begins.
+    Begin {
+        /// Number of runs of this shard.
+        runs: u64,
+        /// Number of runs that were finished before.
+        finished: u64,
+    },
+    /// A run is finished, and its row is in the journal.
+    Finished(&'a SweepRow),
+}
 
 /// An attempt.
 pub(super) struct Attempt<'a, P> {
@@ -173,7 +189,7 @@ impl<'a, P: FnMut(SweepProgress<'_>) + Send> Attempt<'a, P> {
         Ok(sweep.begin(1).err().map(|error| SweepError::NoneBegins {
             runs: sweep.runs(),
             values: sweep.values(1),
-            reason: run::reason(&error),
+            reason: reason(&error),
         }))
     }
 }

@@ -14,7 +14,7 @@ use dynamics::{SceneCode, Stop};
 use scene_codegen::{LANES, Tape, TapeCall};
 
 use super::SweepError;
-use super::make::Job;
+use super::job::Job;
 use super::run::Ended;
 
 /// Size of the stack of a run (bytes); memory is taken by what is used of it.

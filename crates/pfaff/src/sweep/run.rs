@@ -11,25 +11,22 @@ use dynamics::{
 use model::space::norm;
 use model::{Mechanism, System};
 use report::sweep::{Extreme, SweepMotion};
-use report::{SweepRow, SweepStatus};
 use scene_codegen::Tape;
+use solvability::Analysis;
 use solvability::analysis::analyse_decided;
-use solvability::{Analysis, analyse};
 
-use super::Sweep;
-use crate::assembled::AssembledScene;
 use crate::error::StudyError;
-use crate::study::{Overrides, Study};
+use crate::study::Study;
 
 /// A run that can begin: assembled, and analysed at its start.
 pub(super) struct Begun {
     pub(super) study: Study,
-    options: MotionOptions,
-    analysis: Arc<Analysis>,
+    pub(super) options: MotionOptions,
+    pub(super) analysis: Arc<Analysis>,
     /// Number of unique reactions that are fragile.
-    fragile: u64,
+    pub(super) fragile: u64,
     /// Indices of the requested reactions in this mechanism.
-    reactions: Vec<Option<usize>>,
+    pub(super) reactions: Vec<Option<usize>>,
     /// The code that the run is made on, if it is made on code.
     pub(super) code: Option<Tape>,
 }
@@ -37,7 +34,7 @@ pub(super) struct Begun {
 /// The scene without changes, whose decisions serve all runs with the same constraints.
 pub(super) struct Described {
     study: Study,
-    analysis: Arc<Analysis>,
+    pub(super) analysis: Arc<Analysis>,
 }
 
 impl Described {
@@ -70,8 +67,8 @@ impl Described {
 
 /// How a run ended: what its row has, and the reason if it stopped.
 pub(super) struct Ended {
-    motion: SweepMotion,
-    error: Option<StudyError>,
+    pub(super) motion: SweepMotion,
+    pub(super) error: Option<StudyError>,
     /// Whether it has left generated code on the way.
     left_code: bool,
 }
@@ -82,90 +79,6 @@ impl Ended {
         self.error.is_some() && self.left_code
     }
 }
-
-impl Sweep<'_> {
-    /// Assembles a run (from 1).
-    pub(super) fn begin(&self, run: u64) -> Result<Begun, StudyError> {
-        let written = self.grid.written((run - 1) as usize);
-        let written: Vec<&str> = written.iter().map(String::as_str).collect();
-        let text = self.template.with_expressions(&written);
-        let assembled = AssembledScene::read(&self.plan.scene, &text, self.registry)?;
-        let described = self.described();
-        let other = described.map(Described::prepared);
-        let mut study = assembled.prepare_after(&Overrides::default(), other)?;
-        let options = study.options.clone().ok_or(StudyError::NoEnd)?;
-        options.check()?;
-        let Prepared {
-            mechanism,
-            q,
-            v,
-            decided,
-            ..
-        } = &study.prepared;
-        let known = described.filter(|described| described.decides(&study.prepared));
-        let analysis = match (known, decided) {
-            (Some(known), _) => Arc::clone(&known.analysis),
-            (None, Some(decided)) => Arc::new(analyse_decided(mechanism, 0.0, q, decided, |_| ())?),
-            (None, None) => Arc::new(analyse(mechanism, 0.0, q)?),
-        };
-        let fragile = analysis.sensitivities(mechanism, q, v)?.fragile().count() as u64;
-        let reactions = self.places(mechanism);
-        let code = self
-            .code()
-            .and_then(|code| code.of_run(&mut study, described, &options));
-        Ok(Begun {
-            study,
-            options,
-            analysis,
-            fragile,
-            reactions,
-            code,
-        })
-    }
-
-    /// The row of a run that has begun.
-    pub(super) fn row_of(&self, run: u64, Ended { motion, error, .. }: Ended) -> SweepRow {
-        match error {
-            // The run has no state.
-            Some(error) if motion.t_state.is_nan() => self.refused(run, &error),
-            error => SweepRow {
-                run,
-                varied: self.point(run),
-                status: match error {
-                    Some(_) => SweepStatus::Stopped,
-                    None => SweepStatus::Done,
-                },
-                error: error.as_ref().map_or(String::new(), reason),
-                motion: Some(motion),
-            },
-        }
-    }
-
-    /// The row of a run that cannot begin.
-    pub(super) fn refused(&self, run: u64, error: &StudyError) -> SweepRow {
-        SweepRow {
-            run,
-            varied: self.point(run),
-            status: SweepStatus::Refused,
-            error: reason(error),
-            motion: None,
-        }
-    }
-
-    /// The row of a run that has ended its process twice.
-    pub(super) fn crashed(&self, run: u64) -> SweepRow {
-        SweepRow {
-            run,
-            varied: self.point(run),
-            status: SweepStatus::Crashed,
-            error: CRASHED.to_owned(),
-            motion: None,
-        }
-    }
-}
-
-/// What is known of a run that has ended its process.
-const CRASHED: &str = "the process ended twice while it made this run and no other";
 
 impl Begun {
     /// Interprets it from its start on.
@@ -214,18 +127,6 @@ impl Begun {
 /// Whether an event is one of the motion, not of how it is computed.
 fn is_of_motion(event: &&Event) -> bool {
     !matches!(event.kind, EventKind::CodeLeft | EventKind::CodeUsed)
-}
-
-/// An error as text, without the name and the lines of a text that the user has not written.
-pub(super) fn reason(error: &StudyError) -> String {
-    let StudyError::Scene(diagnostics) = error else {
-        return error.to_string();
-    };
-    let texts = diagnostics.iter().map(|d| match d.primary.text.as_str() {
-        text if text.starts_with("did you mean") => format!("{}; {text}", d.message),
-        _ => d.message.clone(),
-    });
-    texts.collect::<Vec<_>>().join("; ")
 }
 
 /// Values kept from the rows of a run.

@@ -280,7 +280,7 @@ fn groups_leave_no_trace() {
                 Ok(())
             };
             sweep
-                .make(group, super::make::Keep::Rows, &|| false, &mut sink)
+                .make(group, super::job::Keep::Rows, &|| false, &mut sink)
                 .expect("made");
         }
         for (a, mut b) in alone.iter().zip(rows) {

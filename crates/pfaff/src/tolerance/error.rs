@@ -3,7 +3,7 @@
 use model::codes::Code;
 use scene::KeyError;
 
-use super::{ROWS_MAX, SAMPLES_MAX};
+use super::limits::{ROWS_MAX, SAMPLES_MAX};
 use crate::error::StudyError;
 
 /// Reason why no samples are made.

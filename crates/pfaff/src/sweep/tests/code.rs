@@ -1,6 +1,7 @@
 //! Runs on code, several at once, compared with each run alone and with the interpreter.
 
-use super::super::make::{Keep, TOGETHER};
+use super::super::job::Keep;
+use super::super::make::TOGETHER;
 use super::*;
 
 /// A cart on two knife edges, whose forces along them are not unique, with a pendulum.
