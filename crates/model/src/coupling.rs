@@ -7,6 +7,7 @@
 //! (ratio·x + c₂·x² + …) = 0`.
 
 mod element;
+mod error;
 mod facts;
 mod polynomial;
 mod side;
@@ -18,6 +19,9 @@ use crate::element::{BodySpace, ConstraintKernels, Kinematics};
 use facts::facts;
 use polynomial::Polynomial;
 use side::Side;
+
+pub use crate::element::{Measured, Placed};
+pub use error::CouplingError;
 
 /// Name of the datum with the initial value of a measure that has a row of its own.
 const OF_ROW: &str = "measure_0";
@@ -32,35 +36,6 @@ struct Coupling<S: BodySpace> {
     /// (−1), or not at all.
     meets: [f64; 2],
     facts: &'static facts::Facts,
-}
-
-/// A measure that can be coupled: the bodies of its joint, and the kernels of its drive.
-pub type Measured<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
-
-/// A constraint with its bodies.
-pub type Placed<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
-
-/// Error in the measures or numbers of a coupling.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CouplingError {
-    /// A measure whose drive has other rows than one of its own between two bodies.
-    #[error(
-        "`{definition}` has {rows} rows and {slots} bodies: a coupling takes measures that have one \
-         row of their own between two bodies, such as the angle of a revolute joint or the \
-         displacement of a slider"
-    )]
-    Measure {
-        /// The definition of the drive.
-        definition: &'static str,
-        /// Number of its rows.
-        rows: usize,
-        /// Number of its bodies.
-        slots: usize,
-    },
-    /// No coefficient, or one that is not finite.
-    #[error("the ratio of a coupling and its coefficients are finite numbers, not all zero")]
-    Coefficients,
 }
 
 /// The constraint by which the second measure follows the first: their changes since the start

@@ -8,7 +8,7 @@
 
 use linalg::{DampedRows, Dd, DdMatrix, StepError};
 
-use crate::element::Bodies;
+use crate::element::{Bodies, ExtendedSlots};
 use crate::mechanism::{Given, Mechanism};
 use crate::size::scene_size;
 use crate::start::within::is_beyond;
@@ -110,9 +110,9 @@ impl Polished {
 /// Φ in double-double, m values.
 fn extended_phi(mechanism: &Mechanism, t: f64, q: &[Dd]) -> Vec<Dd> {
     let mut phi = vec![Dd::ZERO; mechanism.layout().m];
-    let (bodies, jets) = arguments(mechanism, t, q);
+    let at = arguments(mechanism, t, q);
     for c in &mechanism.elements.constraints {
-        c.extended_phi(&bodies, &jets, &mut phi[c.rows.holonomic.clone()]);
+        at.phi(c, &mut phi[c.rows.holonomic.clone()]);
     }
     phi
 }
@@ -120,14 +120,14 @@ fn extended_phi(mechanism: &Mechanism, t: f64, q: &[Dd]) -> Vec<Dd> {
 /// C in double-double.
 fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
     let (layout, elements) = (mechanism.layout(), &mechanism.elements);
-    let (bodies, jets) = arguments(mechanism, t, q);
+    let at = arguments(mechanism, t, q);
     let mut entries: Vec<Dd> = elements.entries.iter().map(|&e| Dd::from(e)).collect();
     for c in elements
         .constraints
         .iter()
         .filter(|c| c.has_varying_entries())
     {
-        c.extended_c(&bodies, &jets, &mut entries[c.entries.clone()]);
+        at.c(c, &mut entries[c.entries.clone()]);
     }
     let mut dense = DdMatrix::zeros(layout.rows(), layout.n_v);
     for i in 0..layout.rows() {
@@ -139,12 +139,33 @@ fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
 }
 
 /// Poses of the bodies, and values of the functions of time.
-fn arguments(mechanism: &Mechanism, t: f64, q: &[Dd]) -> (Bodies<Dd>, Vec<[Dd; 3]>) {
+fn arguments(mechanism: &Mechanism, t: f64, q: &[Dd]) -> ExtendedSlots {
     let given = mechanism.elements.given.iter();
     let jet = |given: &Given| given.function().map(|f| f.extended_jet(t));
     let mut jets: Vec<[Dd; 3]> = given.map(|g| jet(g).unwrap_or_default()).collect();
-    mechanism.extended_angles(t, q, &mut jets);
-    (Bodies::at(mechanism.space(), mechanism.of_bodies(q)), jets)
+    counted_angles(mechanism, t, q, &mut jets);
+    ExtendedSlots {
+        bodies: Bodies::at(mechanism.space(), mechanism.of_bodies(q)),
+        jets,
+    }
+}
+
+/// Gives the kernels their counted angles: those of the rounded coordinates, whose cosine and sine
+/// are known to all digits. Kernels add what is left of the angle.
+fn counted_angles(mechanism: &Mechanism, t: f64, q: &[Dd], jets: &mut [[Dd; 3]]) {
+    if mechanism.layout().turns == 0 {
+        return;
+    }
+    let rounded: Vec<f64> = q.iter().map(|q| q.to_f64()).collect();
+    let mut s = mechanism.scratch();
+    mechanism.pose(t, &rounded, &mut s);
+    for angle in &mechanism.elements.counted {
+        let theta = Dd::from(s.slots.jets[angle.first][0]);
+        let (sin, cos) = theta.sin_cos();
+        for (jet, value) in jets[angle.first..].iter_mut().zip([theta, cos, sin]) {
+            *jet = [value, Dd::ZERO, Dd::ZERO];
+        }
+    }
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use crate::element::{Bodies, angle_at, axes_at, turned_at};
 use crate::mechanism::Mechanism;
 use crate::observed::{Marker, Measure, MeasureKind, Observed};
 use crate::space::{SpaceKind, cross, difference, norm, normalised, quaternion_product};
+use crate::system::System;
 
 /// Position and velocity of a point of a body, or of its frame; ground axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -106,6 +107,20 @@ impl Mechanism {
     #[must_use]
     pub fn frames(&self) -> Frames<'_> {
         Frames(self)
+    }
+
+    /// Coordinates and velocities as described, not corrected; velocities that are not given are
+    /// zero.
+    #[must_use]
+    pub fn described_state(&self) -> (Vec<f64>, Vec<f64>) {
+        let mut q = vec![0.0; self.layout().n_q];
+        let n_q = self.space().n_q();
+        for (body, q) in self.bodies().iter().zip(q.chunks_exact_mut(n_q)) {
+            body.coordinates(self.space(), q);
+        }
+        let v = self.frames().given_velocities(&q).into_iter();
+        let v = v.map(Option::unwrap_or_default).collect();
+        (q, v)
     }
 }
 

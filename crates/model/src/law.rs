@@ -5,86 +5,22 @@
 //! Not here: how a law is written in a scene, and what its units are.
 
 mod drive;
+mod error;
 mod number;
+mod operation;
 mod program;
 #[cfg(test)]
 mod tests;
+mod undefined;
 
 pub(crate) use drive::{full, law_drive};
+pub use error::LawError;
+pub use operation::{Function, Join, Operation};
+pub use undefined::Undefined;
 
 use crate::called::{CallError, Called, DriveState};
 use number::{Slope, Smooth};
 use program::Program;
-
-/// One operation on a stack of numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Operation {
-    /// Pushes a number.
-    Number(f64),
-    /// Pushes the measure (m or rad).
-    Measure,
-    /// Pushes its rate (m/s or rad/s).
-    Rate,
-    /// Pushes the time (s).
-    Time,
-    /// Replaces the last number by a function of it.
-    Apply(Function),
-    /// Replaces the last two numbers by a result.
-    Join(Join),
-}
-
-/// A function of one number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Function {
-    /// `−a`
-    Negate,
-    /// `aⁿ`, a product.
-    Whole(i32),
-    /// `√a`
-    Root,
-    /// `|a|`
-    Abs,
-    /// `sin a`
-    Sin,
-    /// `cos a`
-    Cos,
-    /// `tan a`
-    Tan,
-    /// `arcsin a`
-    Asin,
-    /// `arccos a`
-    Acos,
-    /// `arctan a`
-    Atan,
-    /// `eᵃ`
-    Exp,
-    /// `ln a`
-    Log,
-}
-
-/// A function of two numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Join {
-    /// `a + b`
-    Add,
-    /// `a − b`
-    Subtract,
-    /// `a·b`
-    Multiply,
-    /// `a/b`
-    Divide,
-    /// `aᵇ`
-    Power,
-    /// The angle of the point (b, a).
-    Angle,
-    /// The smaller one.
-    Least,
-    /// The larger one.
-    Largest,
-}
-
-/// Largest number of values on the stack of a law: expressions are not nested as deeply.
-const DEEPEST: usize = 64;
 
 /// A force or torque as a function of a measure, its rate and time.
 ///
@@ -129,87 +65,6 @@ pub struct DriveForce {
     pub rate: f64,
     /// Force (N) or torque (N·m) along the measure: on the second body, opposite on the first.
     pub force: Result<f64, Undefined>,
-}
-
-/// Error in the operations of a law.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LawError {
-    /// An operation finds too few numbers, or several are left at the end.
-    #[error("the operations of a law leave {left} numbers, need 1")]
-    Incomplete {
-        /// How many are left.
-        left: usize,
-    },
-    /// Too many numbers on the stack.
-    #[error("a law is nested deeper than {DEEPEST}")]
-    Deep,
-    /// A law acts on one row with few bodies.
-    #[error(
-        "`{definition}` has {rows} rows and {slots} bodies; a law needs 1 row and at most {most} bodies"
-    )]
-    Rows {
-        /// The definition of the drive.
-        definition: &'static str,
-        /// Number of its rows.
-        rows: usize,
-        /// Number of its bodies.
-        slots: usize,
-        /// Largest number of bodies.
-        most: usize,
-    },
-    /// The arguments of the joint do not fit.
-    #[error(transparent)]
-    Argument(#[from] joints::ArgumentError),
-}
-
-/// Why a law has no finite value, or no derivatives.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Undefined {
-    /// A function of one number.
-    Apply(Function, f64),
-    /// A function of two numbers.
-    Join(Join, f64, f64),
-    /// The measure has no direction, or a number is not finite.
-    Input,
-    /// A called function returned this, which is not a finite number.
-    Returned(String),
-    /// A called function failed, with this message.
-    Failed(String),
-    /// More is asked of a called function than its value.
-    ValueAlone,
-}
-
-impl Undefined {
-    /// Whether a called function is the cause: another state does not mend it.
-    #[must_use]
-    pub fn is_of_function(&self) -> bool {
-        matches!(self, Self::Returned(_) | Self::Failed(_))
-    }
-}
-
-impl std::error::Error for Undefined {}
-
-impl std::fmt::Display for Undefined {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Join(Join::Divide, _, 0.0) => f.write_str("division by zero"),
-            Self::Apply(Function::Log, a) => write!(f, "log({a})"),
-            Self::Apply(Function::Root, a) => write!(f, "sqrt({a})"),
-            Self::Apply(Function::Asin, a) => write!(f, "asin({a})"),
-            Self::Apply(Function::Acos, a) => write!(f, "acos({a})"),
-            Self::Apply(Function::Exp, a) => write!(f, "exp({a})"),
-            Self::Apply(Function::Whole(n), a) => write!(f, "{a}^{n}"),
-            Self::Join(Join::Power, a, b) => write!(f, "{a}^{b}"),
-            Self::Join(Join::Angle, a, b) => write!(f, "atan2({a}, {b})"),
-            Self::Apply(..) | Self::Join(..) => f.write_str("a result that is too large"),
-            Self::Input => f.write_str("a measure without a value"),
-            Self::Returned(x) => write!(f, "its function returned {x}"),
-            Self::Failed(why) => write!(f, "its function failed: {why}"),
-            Self::ValueAlone => f.write_str("a function that is called has values alone"),
-        }
-    }
 }
 
 impl Law {

@@ -6,22 +6,18 @@ mod build_error;
 mod check;
 mod counted;
 mod derivatives;
+mod elements;
 mod forces;
 mod holds;
 mod initial;
 mod kernels;
 mod part;
 mod same;
+mod time_function;
 mod turn;
 mod work;
 
-use joints::Ring;
-use linalg::Dd;
-
 use crate::body::BodyRecord;
-use crate::element::{PlacedConstraint, PlacedForce, Site};
-use crate::function::Function;
-use crate::mechanism::counted::CountedAngle;
 use crate::observed::Observed;
 use crate::space::{Space, SpaceKind, in_space};
 use crate::system::Layout;
@@ -30,10 +26,12 @@ use crate::tolerance::Tolerance;
 pub use build::Buildable;
 pub use build_error::BuildError;
 pub use derivatives::{Derivatives, Sparse};
+pub(crate) use elements::{Elements, Given};
 pub use forces::{AppliedForce, AppliedForces, CalledForce, Push, UndefinedForce};
 pub(crate) use initial::{initialise, unmet_requirement, unmet_rows};
 pub(crate) use kernels::gyroscopic;
 pub use part::{Part, Places};
+pub use time_function::{FunctionForm, TimeFunction};
 pub use work::Work;
 
 /// A mechanism in the plane: bodies, constraints, forces, and the equations formed from them.
@@ -84,41 +82,6 @@ pub struct Mechanism {
     layout: Layout,
 }
 
-/// The elements of a mechanism with their indices, and the arguments of their kernels.
-#[derive(Clone, Default)]
-pub(crate) struct Elements {
-    pub(crate) constraints: Vec<PlacedConstraint>,
-    pub(crate) forces: Vec<PlacedForce>,
-    /// What kernels are given besides poses and velocities, element by element.
-    pub(crate) given: Vec<Given>,
-    /// The angles that count their turns: those of constraints, then those of forces.
-    pub(crate) counted: Vec<CountedAngle>,
-    /// Constant entries of C, zero elsewhere.
-    pub(crate) entries: Vec<f64>,
-    pub(crate) n_slots: usize,
-    /// Largest number of values of the kernel of a force.
-    pub(crate) block: usize,
-}
-
-impl Elements {
-    /// The sites of all constraints and forces.
-    pub(crate) fn sites(&self) -> impl Iterator<Item = &Site> {
-        let constraints = self.constraints.iter().map(|c| &c.site);
-        constraints.chain(self.forces.iter().map(|f| &f.site))
-    }
-}
-
-/// What the kernels of an element are given besides poses and velocities.
-#[derive(Clone)]
-pub(crate) enum Given {
-    /// A function of time.
-    Function(TimeFunction),
-    /// One of three values of a counted angle, which [`System::pose`] sets.
-    ///
-    /// [`System::pose`]: crate::System::pose
-    Counted,
-}
-
 impl Mechanism {
     /// The same mechanism whose functions of time keep the values that they have at t: drives are
     /// held there, and given forces stay as they are. Laws of drives may still depend on the time.
@@ -150,104 +113,6 @@ impl Mechanism {
             }
         }
         held
-    }
-}
-
-impl Given {
-    pub(crate) fn function(&self) -> Option<&TimeFunction> {
-        match self {
-            Self::Function(function) => Some(function),
-            Self::Counted => None,
-        }
-    }
-}
-
-impl Elements {
-    /// The functions of time as passed to the elements.
-    pub(crate) fn functions(&self) -> impl Iterator<Item = &TimeFunction> {
-        self.given.iter().filter_map(Given::function)
-    }
-}
-
-/// A function of time as passed to an element.
-#[derive(Clone, Debug)]
-pub struct TimeFunction {
-    function: Function,
-    /// f(0) for drives, which follow f(t) − f(0); otherwise zero.
-    offset: f64,
-    form: FunctionForm,
-}
-
-/// The form in which a function enters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FunctionForm {
-    /// The function itself.
-    Value,
-    /// Its cosine; the next function is its sine.
-    Cosine,
-    /// Its sine.
-    Sine,
-}
-
-impl TimeFunction {
-    /// The function, and the value that is subtracted from it: f(0) for drives.
-    #[must_use]
-    pub fn parts(&self) -> (&Function, f64) {
-        (&self.function, self.offset)
-    }
-
-    /// The form in which the difference enters: drives of angles in space take its cosine and its
-    /// sine.
-    #[must_use]
-    pub fn form(&self) -> FunctionForm {
-        self.form
-    }
-
-    /// The numbers of the function ([`crate::function::Parts::numbers`]), then the value that is
-    /// subtracted from it.
-    #[must_use]
-    pub fn numbers(&self) -> Vec<f64> {
-        let mut numbers = self.function.parts().numbers();
-        numbers.push(self.offset);
-        numbers
-    }
-
-    /// The same with these numbers, in the order of [`TimeFunction::numbers`]. `None` if there are
-    /// not as many, or the function cannot have them.
-    #[must_use]
-    pub fn with_numbers(&self, numbers: &[f64]) -> Option<Self> {
-        let (&offset, numbers) = numbers.split_last()?;
-        Some(Self {
-            function: self.function.with_numbers(numbers)?,
-            offset,
-            form: self.form,
-        })
-    }
-
-    /// Its value at t, in this form, with two derivatives.
-    #[must_use]
-    pub fn jet(&self, t: f64) -> [f64; 3] {
-        let [f, d, dd] = self.function.jet(t);
-        self.formed([f - self.offset, d, dd], f64::sin_cos)
-    }
-
-    /// The same in double-double, from the value in `f64`.
-    pub(crate) fn extended_jet(&self, t: f64) -> [Dd; 3] {
-        let [f, d, dd] = self.function.jet(t);
-        let jet = [f - self.offset, d, dd].map(Dd::from);
-        self.formed(jet, Dd::sin_cos)
-    }
-
-    /// The form of a value with two derivatives.
-    fn formed<T: Ring>(&self, [f, d, dd]: [T; 3], sin_cos: impl Fn(T) -> (T, T)) -> [T; 3] {
-        if self.form == FunctionForm::Value {
-            return [f, d, dd];
-        }
-        let (sin, cos) = sin_cos(f);
-        match self.form {
-            FunctionForm::Cosine => [cos, -(sin * d), -(cos * d * d) - sin * dd],
-            _ => [sin, cos * d, cos * dd - sin * d * d],
-        }
     }
 }
 
@@ -286,18 +151,15 @@ impl Mechanism {
         &self.bodies
     }
 
-    /// Coordinates and velocities as described, not corrected; velocities that are not given are
-    /// zero.
-    #[must_use]
-    pub fn described_state(&self) -> (Vec<f64>, Vec<f64>) {
-        let mut q = vec![0.0; self.layout.n_q];
-        let n_q = self.space().n_q();
-        for (body, q) in self.bodies.iter().zip(q.chunks_exact_mut(n_q)) {
-            body.coordinates(self.space(), q);
-        }
-        let v = self.frames().given_velocities(&q).into_iter();
-        let v = v.map(Option::unwrap_or_default).collect();
-        (q, v)
+    /// The coordinates of the bodies among those of a configuration: all but the counted angles.
+    pub fn of_bodies<'q, T>(&self, q: &'q [T]) -> &'q [T] {
+        &q[..self.layout.angles().start.min(q.len())]
+    }
+
+    /// The same to be changed.
+    pub fn of_bodies_mut<'q, T>(&self, q: &'q mut [T]) -> &'q mut [T] {
+        let n = self.layout.angles().start.min(q.len());
+        &mut q[..n]
     }
 
     /// The displacement (n_v) that moves the configuration `from` to q; allocates.
@@ -312,7 +174,7 @@ impl Mechanism {
     /// counted angles.
     pub fn take(&self, q: &mut [f64], from: &[f64], columns: &[usize]) {
         self.space().take(q, from, columns);
-        let first = self.layout.n_q - self.layout.turns;
+        let first = self.layout.angles().start;
         q[first..].copy_from_slice(&from[first..]);
     }
 
@@ -354,7 +216,8 @@ impl Mechanism {
         match self.bodies.get(k / n) {
             Some(body) => in_space!(self.space(), S => (body.name.as_str(), S::COORDINATES[k % n])),
             None => (
-                self.counted_name(k - n * self.bodies.len()),
+                self.elements
+                    .counted_name(k - n * self.bodies.len(), &self.layout.groups),
                 "angle with its turns",
             ),
         }

@@ -23,9 +23,6 @@ use crate::system::System;
 pub struct RecordedEquations {
     /// All operations, then the numbers beside the equations; results are indices of it.
     pub tape: Vec<Operation>,
-    /// The place of the first number beside the equations: masses, principal axes, functions of
-    /// time.
-    pub beside: usize,
     /// Meaning of each input.
     pub inputs: Vec<Input>,
     /// Φ, m values.
@@ -42,6 +39,19 @@ pub struct RecordedEquations {
     pub rate: Vec<Recorded>,
     /// The generalised forces of gravity that Q begins with, n_v numbers.
     pub weight: Vec<Recorded>,
+    /// The numbers beside the equations.
+    pub beside: Beside,
+    /// Form and kind of each function of time.
+    kinds: Vec<(FunctionForm, &'static str)>,
+    /// The joints, drives and forces, each with the first place of its operations, ascending.
+    pub owners: Vec<(usize, String)>,
+}
+
+/// The numbers of a mechanism beside its equations: masses, principal axes, functions of time.
+#[derive(Clone, Debug)]
+pub struct Beside {
+    /// The place of the first of them in the recording.
+    pub first: usize,
     /// The diagonal of M, n_v numbers.
     pub mass: Vec<Recorded>,
     /// In space: the quaternion (w, x, y, z) from the principal axes of each body to those of its
@@ -49,10 +59,6 @@ pub struct RecordedEquations {
     pub principal: Vec<Option<[Recorded; 4]>>,
     /// The numbers of each function of time, in the order of [`TimeFunction::numbers`].
     pub functions: Vec<Vec<Recorded>>,
-    /// Form and kind of each function of time.
-    kinds: Vec<(FunctionForm, &'static str)>,
-    /// The joints, drives and forces, each with the first place of its operations, ascending.
-    pub owners: Vec<(usize, String)>,
 }
 
 /// Results collected while the kernels run.
@@ -130,10 +136,7 @@ impl RecordedEquations {
             rate: results.rate,
             weight: results.weight,
             owners: results.owners,
-            beside: beside.first,
-            mass: beside.mass,
-            principal: beside.principal,
-            functions: beside.functions,
+            beside,
             kinds: mechanism
                 .functions()
                 .map(|f| (f.form(), f.parts().0.parts().kind()))
@@ -149,14 +152,6 @@ impl RecordedEquations {
             _ => None,
         }
     }
-}
-
-/// The numbers of a mechanism beside its equations.
-struct Beside {
-    first: usize,
-    mass: Vec<Recorded>,
-    principal: Vec<Option<[Recorded; 4]>>,
-    functions: Vec<Vec<Recorded>>,
 }
 
 impl Beside {
@@ -223,15 +218,14 @@ fn run_on(mechanism: &Mechanism, inputs: &RecordedSlots) -> Results {
 
 fn record_constraint(c: &PlacedConstraint, inputs: &RecordedSlots, r: &mut Results) {
     let mut own = Vec::new();
-    c.recorded_phi(inputs, &mut r.phi[c.rows.holonomic.clone()]);
+    inputs.phi(c, &mut r.phi[c.rows.holonomic.clone()]);
     if c.has_varying_entries() {
-        c.recorded_c(inputs, &mut r.entries[c.entries.clone()]);
+        inputs.c(c, &mut r.entries[c.entries.clone()]);
     }
     if c.depends_on_time() {
-        c.rows
-            .write(&mut r.b, &mut own, |b| c.recorded_b(inputs, b));
+        c.rows.write(&mut r.b, &mut own, |b| inputs.b(c, b));
     }
     c.rows.write(&mut r.gamma, &mut own, |gamma| {
-        c.recorded_gamma(inputs, gamma);
+        inputs.gamma(c, gamma);
     });
 }

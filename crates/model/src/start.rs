@@ -97,7 +97,8 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
         // All rows: those of initial values restrict it, too.
         let rows: Vec<usize> = (0..mechanism.layout().m).collect();
         q = closest(mechanism, &mut s, (&rows, &weights), &posed, size)?;
-        mechanism.settle_angles(&mut q);
+        let first = mechanism.layout().angles().start;
+        mechanism.elements.settle_angles(first, &mut q);
         requirement(mechanism, &q)?;
         correction = mechanism.difference_of(&q, &posed);
         // A body without a pose of its own follows the others.

@@ -108,6 +108,11 @@ impl Layout {
         self.m + self.h
     }
 
+    /// Where the counted angles are among the coordinates.
+    pub(crate) fn angles(&self) -> std::ops::Range<usize> {
+        self.n_q - self.turns..self.n_q
+    }
+
     /// Rows of drives, ascending.
     #[must_use]
     pub fn drive_rows(&self) -> Vec<usize> {

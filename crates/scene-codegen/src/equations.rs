@@ -138,7 +138,7 @@ impl Equations {
 
     /// The diagonal of M.
     pub(crate) fn mass(&self) -> Vec<Number> {
-        let mass = self.recording.mass.iter();
+        let mass = self.recording.beside.mass.iter();
         let mass = mass.map(|r| number(&self.recording, &self.numbers, *r));
         mass.collect()
     }
@@ -220,8 +220,8 @@ pub(crate) fn replay(
     numbers: &HashMap<usize, Value>,
 ) -> Vec<Value> {
     let p = &mut code.program;
-    let mut values: Vec<Value> = Vec::with_capacity(recording.beside);
-    for (place, operation) in recording.tape[..recording.beside].iter().enumerate() {
+    let mut values: Vec<Value> = Vec::with_capacity(recording.beside.first);
+    for (place, operation) in recording.tape[..recording.beside.first].iter().enumerate() {
         let of = |r: Recorded| values[r.place()];
         let value = match *operation {
             Operation::Number(x) => match numbers.get(&place) {

@@ -280,7 +280,7 @@ impl<'s> Search<'s> {
         let mechanism = &self.prepared.mechanism;
         let space = mechanism.space();
         let at = |list: &[joints::Recorded]| list.iter().position(|r| r.place() == place);
-        if let Some(column) = at(&recording.mass) {
+        if let Some(column) = at(&recording.beside.mass) {
             let (body, direction) = mechanism.coordinate(column);
             return if space.is_rotation(column) {
                 format!("moment of inertia of `{body}`, {direction}")
@@ -292,12 +292,17 @@ impl<'s> Search<'s> {
             let (body, direction) = mechanism.coordinate(column);
             return format!("weight of `{body}`, {direction}");
         }
-        for (body, axes) in mechanism.bodies().iter().zip(&recording.principal) {
+        for (body, axes) in mechanism.bodies().iter().zip(&recording.beside.principal) {
             if axes.as_ref().and_then(|axes| at(axes)).is_some() {
                 return format!("principal axes of `{}`", body.name);
             }
         }
-        if let Some(k) = recording.functions.iter().position(|f| at(f).is_some()) {
+        if let Some(k) = recording
+            .beside
+            .functions
+            .iter()
+            .position(|f| at(f).is_some())
+        {
             return format!("number of function of time {}", k + 1);
         }
         let mut rows = recording.c.iter().zip(&mechanism.layout().labels);

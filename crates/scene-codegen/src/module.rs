@@ -104,7 +104,7 @@ pub(crate) fn of_subject(subject: &Subject<'_>, choices: &Choices) -> Result<Mod
     let functions = Functions::new(subject)?;
     let mechanism = &subject.prepared.mechanism;
     let rotations = rotations(&functions);
-    let of_time = &functions.equations.recording.functions;
+    let of_time = &functions.equations.recording.beside.functions;
     let (jets, mut support) = time::jets(mechanism.functions(), |function, number| {
         let place = of_time[function][number].place();
         subject.inputs.at(place).map(|k| format!("p[{k}]"))

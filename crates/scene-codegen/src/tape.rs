@@ -215,7 +215,7 @@ impl Tape {
         };
         let times = prepared.mechanism.functions();
         let inputs = &subject.inputs;
-        let numbers_of_times = equations.recording.functions.iter();
+        let numbers_of_times = equations.recording.beside.functions.iter();
         let list_of_inputs = inputs.list.iter().map(|p| CodeInput {
             name: p.name.clone().into(),
             described: p.described,

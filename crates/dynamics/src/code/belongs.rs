@@ -208,7 +208,7 @@ impl CodeInputs {
                     });
                 }
             }
-            let mut masses = recording.mass.iter();
+            let mut masses = recording.beside.mass.iter();
             let is_lost = first == 0.0 && input.described != 0.0;
             if is_lost && masses.any(|mass| input.places.contains(&mass.place())) {
                 return Err(CodeMismatch::Massless {

@@ -4,10 +4,8 @@ use std::ops::Range;
 
 use joints::space3::{Pose, Twist};
 use joints::spec::ConstraintSpec;
-use joints::{Magnitude, Recorded, Space3};
-use linalg::Dd;
+use joints::{Magnitude, Space3};
 
-use super::recorded::RecordedSlots;
 use super::slots::{Kinematics, OwnRates, Rates, Site, Slots};
 use super::{AnyConstraint, Bodies, BodySpace, with};
 use crate::rows::RowRanges;
@@ -250,22 +248,6 @@ impl PlacedConstraint {
         });
     }
 
-    /// Φ of its holonomic rows in double-double, with all functions of time of the mechanism.
-    pub(crate) fn extended_phi(&self, bodies: &Bodies<Dd>, jets: &[[Dd; 3]], out: &mut [Dd]) {
-        with!(AnyConstraint, &self.framed.element, element, S => {
-            let x = self.site.poses::<S, Dd>(bodies);
-            element.extended().phi(&x, &jets[self.site.functions.clone()], out);
-        });
-    }
-
-    /// C in double-double.
-    pub(crate) fn extended_c(&self, bodies: &Bodies<Dd>, jets: &[[Dd; 3]], out: &mut [Dd]) {
-        with!(AnyConstraint, &self.framed.element, element, S => {
-            let x = self.site.poses::<S, Dd>(bodies);
-            element.extended().c(&x, &jets[self.site.functions.clone()], out);
-        });
-    }
-
     /// Sizes of the terms of C.
     pub(crate) fn magnitude_c(&self, s: &Slots, out: &mut [Magnitude]) {
         let jets = self.site.f(s).iter();
@@ -273,34 +255,6 @@ impl PlacedConstraint {
         with!(AnyConstraint, &self.framed.element, element, S => {
             let x: Vec<_> = self.site.x::<S>(s).iter().map(S::magnitude).collect();
             element.magnitude().c(&x, &f, out);
-        });
-    }
-
-    pub(crate) fn recorded_phi(&self, at: &RecordedSlots, out: &mut [Recorded]) {
-        with!(AnyConstraint, &self.framed.element, element, S => {
-            let (x, _, f) = at.of::<S>(&self.site);
-            element.recorded().phi(&x, f, out);
-        });
-    }
-
-    pub(crate) fn recorded_c(&self, at: &RecordedSlots, out: &mut [Recorded]) {
-        with!(AnyConstraint, &self.framed.element, element, S => {
-            let (x, _, f) = at.of::<S>(&self.site);
-            element.recorded().c(&x, f, out);
-        });
-    }
-
-    pub(crate) fn recorded_b(&self, at: &RecordedSlots, out: &mut [Recorded]) {
-        with!(AnyConstraint, &self.framed.element, element, S => {
-            let (x, _, f) = at.of::<S>(&self.site);
-            element.recorded().b(&x, f, out);
-        });
-    }
-
-    pub(crate) fn recorded_gamma(&self, at: &RecordedSlots, out: &mut [Recorded]) {
-        with!(AnyConstraint, &self.framed.element, element, S => {
-            let (x, v, f) = at.of::<S>(&self.site);
-            element.recorded().gamma(&x, &v, f, out);
         });
     }
 }

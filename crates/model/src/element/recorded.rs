@@ -4,6 +4,8 @@ use joints::plane::Pose;
 use joints::{Plane, Recorded, Space3, space3};
 
 use super::bodies::{InEach, Poses, Twists};
+use super::constraint::PlacedConstraint;
+use super::kernels::{AnyConstraint, with};
 use super::slots::{Kinematics, Site, pose_of};
 use crate::body::BodyRef;
 use crate::space::SpaceKind;
@@ -122,6 +124,38 @@ impl RecordedSlots {
     /// The angular velocity of each spatial body in its principal axes.
     pub(crate) fn spins(&self) -> impl Iterator<Item = [Recorded; 3]> + '_ {
         self.twists.space3.iter().map(|twist| twist.omega)
+    }
+
+    /// Φ of the holonomic rows of a constraint.
+    pub(crate) fn phi(&self, constraint: &PlacedConstraint, out: &mut [Recorded]) {
+        with!(AnyConstraint, constraint.kernels(), element, S => {
+            let (x, _, f) = self.of::<S>(&constraint.site);
+            element.recorded().phi(&x, f, out);
+        });
+    }
+
+    /// C of a constraint.
+    pub(crate) fn c(&self, constraint: &PlacedConstraint, out: &mut [Recorded]) {
+        with!(AnyConstraint, constraint.kernels(), element, S => {
+            let (x, _, f) = self.of::<S>(&constraint.site);
+            element.recorded().c(&x, f, out);
+        });
+    }
+
+    /// b of a constraint.
+    pub(crate) fn b(&self, constraint: &PlacedConstraint, out: &mut [Recorded]) {
+        with!(AnyConstraint, constraint.kernels(), element, S => {
+            let (x, _, f) = self.of::<S>(&constraint.site);
+            element.recorded().b(&x, f, out);
+        });
+    }
+
+    /// Γ of a constraint.
+    pub(crate) fn gamma(&self, constraint: &PlacedConstraint, out: &mut [Recorded]) {
+        with!(AnyConstraint, constraint.kernels(), element, S => {
+            let (x, v, f) = self.of::<S>(&constraint.site);
+            element.recorded().gamma(&x, &v, f, out);
+        });
     }
 
     /// Poses, twists and functions of time of an element.

@@ -1,8 +1,9 @@
 //! A law as operations on a stack of numbers: on doubles, on dual numbers, or on numbers that
 //! record what is done with them.
 
+use super::error::{DEEPEST, LawError};
 use super::number::{Number, Slope, Smooth};
-use super::{DEEPEST, LawError, Operation, Undefined};
+use super::{Operation, Undefined};
 
 /// Operations that leave one number.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use std::ops::Range;
 use joints::spec::ConstraintSpec;
 
 use super::check;
-use super::counted::{CountedAngle, Owner};
+use super::elements::{CountedAngle, Owner};
 use super::turn;
 use super::work::held_bodies;
 use super::{BuildError, Elements, FunctionForm, Given, Mechanism, TimeFunction, initialise};
@@ -31,7 +31,59 @@ pub trait Buildable {
 
 impl<S: BodySpace> Buildable for Described<S> {
     fn built(&self) -> Result<Mechanism, Vec<BuildError>> {
-        Mechanism::of_described(self)
+        let bodies = self.records();
+        let errors = check::faults(self, &bodies);
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        let mut b = Builder::new(S::KIND);
+        let is_early = |spec: &ConstraintSpec| spec.holonomic > 0;
+        b.joints(self, &bodies, is_early);
+        let first_drive = b.elements.constraints.len();
+        for drive in &self.drives {
+            let element = S::any_constraint(drive.element.clone());
+            let element = turn::constraint(element, &bodies, &drive.bodies);
+            b.constraint(
+                &drive.name,
+                ConstraintKind::Drive,
+                &drive.bodies,
+                element,
+                std::slice::from_ref(&drive.motion),
+                drive.tolerance,
+            );
+        }
+        b.joints(self, &bodies, |spec| !is_early(spec));
+        let drives = first_drive..first_drive + self.drives.len();
+        let mut next = [0, drives.end];
+        let joints = self.joints.iter().map(|j| {
+            let next = &mut next[usize::from(!is_early(j.element.spec()))];
+            *next += 1;
+            *next - 1
+        });
+        b.number_rows(&joints.chain(drives).collect::<Vec<_>>());
+        for f in &self.forces {
+            let turned = TurnedSlots::new(turn::principal(&bodies, &f.bodies));
+            let kernels = S::any_force(f.element.clone());
+            b.force(&f.name, &f.bodies, (kernels, turned), &f.functions);
+        }
+        let (space, gravity) = (S::KIND, S::point(self.gravity));
+        let weight = bodies.iter().flat_map(|b| {
+            let of_axis = move |k: usize| {
+                if k < space.n_translations() {
+                    b.mass * gravity[k]
+                } else {
+                    0.0
+                }
+            };
+            (0..space.n_v()).map(of_axis)
+        });
+        let weight = weight.collect();
+        let mut mechanism = b.finish(&self.name, bodies, weight);
+        mechanism.tolerance = self.tolerance;
+        mechanism.observed = self.observed.clone();
+        let (q, _) = mechanism.described_state();
+        initialise(&mut mechanism, &q);
+        Ok(mechanism)
     }
 }
 
@@ -52,62 +104,6 @@ impl Mechanism {
     /// All faults of the description.
     pub fn build(d: &impl Buildable) -> Result<Self, Vec<BuildError>> {
         d.built()
-    }
-
-    fn of_described<S: BodySpace>(d: &Described<S>) -> Result<Self, Vec<BuildError>> {
-        let bodies = d.records();
-        let errors = check::faults(d, &bodies);
-        if !errors.is_empty() {
-            return Err(errors);
-        }
-        let mut b = Builder::new(S::KIND);
-        let is_early = |spec: &ConstraintSpec| spec.holonomic > 0;
-        b.joints(d, &bodies, is_early);
-        let first_drive = b.elements.constraints.len();
-        for drive in &d.drives {
-            let element = S::any_constraint(drive.element.clone());
-            let element = turn::constraint(element, &bodies, &drive.bodies);
-            b.constraint(
-                &drive.name,
-                ConstraintKind::Drive,
-                &drive.bodies,
-                element,
-                std::slice::from_ref(&drive.motion),
-                drive.tolerance,
-            );
-        }
-        b.joints(d, &bodies, |spec| !is_early(spec));
-        let drives = first_drive..first_drive + d.drives.len();
-        let mut next = [0, drives.end];
-        let joints = d.joints.iter().map(|j| {
-            let next = &mut next[usize::from(!is_early(j.element.spec()))];
-            *next += 1;
-            *next - 1
-        });
-        b.number_rows(&joints.chain(drives).collect::<Vec<_>>());
-        for f in &d.forces {
-            let turned = TurnedSlots::new(turn::principal(&bodies, &f.bodies));
-            let kernels = S::any_force(f.element.clone());
-            b.force(&f.name, &f.bodies, (kernels, turned), &f.functions);
-        }
-        let (space, gravity) = (S::KIND, S::point(d.gravity));
-        let weight = bodies.iter().flat_map(|b| {
-            let of_axis = move |k: usize| {
-                if k < space.n_translations() {
-                    b.mass * gravity[k]
-                } else {
-                    0.0
-                }
-            };
-            (0..space.n_v()).map(of_axis)
-        });
-        let weight = weight.collect();
-        let mut mechanism = b.finish(&d.name, bodies, weight);
-        mechanism.tolerance = d.tolerance;
-        mechanism.observed = d.observed.clone();
-        let (q, _) = mechanism.described_state();
-        initialise(&mut mechanism, &q);
-        Ok(mechanism)
     }
 
     /// Sets the tolerance of its numbers, unless one is stated for their joint or body.

@@ -58,7 +58,8 @@ impl System for Mechanism {
                 }
             }
         }
-        self.count_turns(q, &mut s.slots);
+        let known = &q[self.layout.angles()];
+        self.elements.count_turns(known, &mut s.slots);
     }
 
     fn phi(&self, s: &mut Scratch) {
@@ -129,13 +130,15 @@ impl System for Mechanism {
 
     fn rate(&self, q: &[f64], v: &[f64], qd: &mut [f64]) {
         self.space().rate(q, v, qd);
-        self.rate_of_angles(q, v, qd);
+        let rates = &mut qd[self.layout.angles().start..];
+        self.elements.rate_of_angles(q, v, rates);
     }
 
     fn displace(&self, q: &mut [f64], d: &[f64]) {
-        self.displace_angles(q, d);
+        let first = self.layout.angles().start;
+        self.elements.displace_angles(first, q, d);
         self.space().displace(q, d);
-        self.settle_angles(q);
+        self.elements.settle_angles(first, q);
     }
 
     fn difference(&self, q: &[f64], from: &[f64], d: &mut [f64]) {

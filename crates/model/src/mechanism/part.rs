@@ -190,7 +190,8 @@ fn assembled<'a>(
         each.collect()
     };
     let mut coordinates = places(whole.space().n_q());
-    coordinates.extend(whole.counted_of(groups, &own_forces));
+    let counted = whole.elements.counted_of(groups, &own_forces);
+    coordinates.extend(counted.map(|k| whole.layout.angles().start + k));
     let velocities = places(whole.space().n_v());
     let own = bodies.iter().map(|&k| whole.bodies[k].clone()).collect();
     let weight = velocities.iter().map(|&j| whole.weight[j]).collect();

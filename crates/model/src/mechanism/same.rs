@@ -49,10 +49,16 @@ fn same_numbers(a: &RecordedEquations, b: &RecordedEquations) -> bool {
     if a.shape() != b.shape() {
         return false;
     }
-    let first = a.owners.first().map_or(a.beside, |(first, _)| *first);
-    let of_time = a.functions.iter().flatten().map(|r| r.place());
-    let axes = a.principal.iter().flatten().flatten().map(|r| r.place());
+    let first = a.owners.first().map_or(a.beside.first, |(first, _)| *first);
+    let of_time = a.beside.functions.iter().flatten().map(|r| r.place());
+    let axes = a
+        .beside
+        .principal
+        .iter()
+        .flatten()
+        .flatten()
+        .map(|r| r.place());
     let number = |r: &RecordedEquations, place: usize| r.number(place).map(f64::to_bits);
-    let mut places = (first..a.beside).chain(of_time).chain(axes);
+    let mut places = (first..a.beside.first).chain(of_time).chain(axes);
     places.all(|place| number(a, place) == number(b, place))
 }

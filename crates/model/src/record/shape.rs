@@ -43,14 +43,14 @@ impl RecordedEquations {
     /// let [light, heavy] = [Body::new("light", 1.0, 0.1), Body::new("heavy", 5.0, 0.1)];
     /// let both = [recorded(&[light.clone()]), recorded(&[heavy.clone()])];
     /// assert_eq!(both[0].shape(), both[1].shape());
-    /// let mass = both[0].mass[0].place();
+    /// let mass = both[0].beside.mass[0].place();
     /// assert_eq!(both.each_ref().map(|r| r.number(mass)), [Some(1.0), Some(5.0)]);
     /// assert_ne!(both[0].shape(), recorded(&[light, heavy]).shape());
     /// ```
     #[must_use]
     pub fn shape(&self) -> u64 {
         let mut d = Digest(Digest::BASIS);
-        d.take(&[self.tape.len(), self.beside]);
+        d.take(&[self.tape.len(), self.beside.first]);
         for operation in &self.tape {
             match *operation {
                 Operation::Number(_) => d.take(&[0]),
@@ -71,7 +71,7 @@ impl RecordedEquations {
         for list in [&self.phi, &self.b, &self.gamma, &self.force, &self.rate] {
             d.list(list);
         }
-        for list in [&self.weight, &self.mass] {
+        for list in [&self.weight, &self.beside.mass] {
             d.list(list);
         }
         for row in &self.c {
@@ -79,10 +79,10 @@ impl RecordedEquations {
             row.iter()
                 .for_each(|(column, r)| d.take(&[*column, r.place()]));
         }
-        for axes in &self.principal {
+        for axes in &self.beside.principal {
             d.list(axes.as_ref().map_or(&[], |axes| axes.as_slice()));
         }
-        for (numbers, (form, kind)) in self.functions.iter().zip(&self.kinds) {
+        for (numbers, (form, kind)) in self.beside.functions.iter().zip(&self.kinds) {
             d.list(numbers);
             d.bytes(format!("{form:?} {kind}").as_bytes());
         }

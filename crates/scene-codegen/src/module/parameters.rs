@@ -39,7 +39,7 @@ pub(super) fn principal_axes(subject: &Subject<'_>, functions: &Functions) -> To
     if space != SpaceKind::Space3 {
         return TokenStream::new();
     }
-    let recorded = &functions.equations.recording.principal;
+    let recorded = &functions.equations.recording.beside.principal;
     let number = |r: &Recorded| subject.inputs.at(r.place());
     let varies = recorded
         .iter()

@@ -1,0 +1,183 @@
+//! The kernels of a called wrench, in the plane and in space.
+
+use joints::spec::{ForceSpec, Parameter, Shape, Spec, Unit};
+use joints::{Definition, ForceElement, Plane, Recorded, Space, Space3, plane, space3};
+
+use super::{BodyState, CalledWrench, Wrench};
+use crate::element::ForceKernels;
+use crate::law::Undefined;
+
+/// A space in which bodies have called wrenches.
+trait Acted: Space {
+    const SPEC: ForceSpec;
+
+    fn state(time: f64, x: &Self::Pose<f64>, v: &Self::Twist<f64>) -> BodyState;
+
+    /// The components of a wrench along the freedoms of the body.
+    fn components(of: &Wrench, x: &Self::Pose<f64>) -> [f64; 6];
+}
+
+const COMMON: Spec = Spec {
+    name: "CalledWrench",
+    scene_type: "called-wrench",
+    variant: None,
+    doc: "A force and a torque on a body by a function that is called.",
+    text: "",
+    slots: &["j"],
+    parameters: &[Parameter::required(
+        "time",
+        Shape::Functions(&[Unit::Ratio]),
+        "The time.",
+    )],
+    points_apart: false,
+    bearings: false,
+    requirements: &[],
+};
+
+const fn spec(q: &'static [usize], pairs: &'static [[usize; 2]]) -> ForceSpec {
+    ForceSpec {
+        common: COMMON,
+        q,
+        dq_dx: pairs,
+        dq_dv: pairs,
+        dissipative: true,
+        turns: 0,
+        rheonomic: true,
+    }
+}
+
+impl Acted for Plane {
+    const SPEC: ForceSpec = spec(&[0, 1, 2], crate::law::full(3));
+
+    fn state(time: f64, x: &plane::Pose, v: &plane::Twist) -> BodyState {
+        BodyState {
+            time,
+            position: [x.x, x.y, 0.0],
+            rotation: [[x.cos, -x.sin, 0.0], [x.sin, x.cos, 0.0], [0.0, 0.0, 1.0]],
+            angle: x.angle,
+            velocity: [v.x, v.y, 0.0],
+            angular_velocity: [0.0, 0.0, v.omega],
+        }
+    }
+
+    fn components(of: &Wrench, _: &plane::Pose) -> [f64; 6] {
+        [of.force[0], of.force[1], of.torque[2], 0.0, 0.0, 0.0]
+    }
+}
+
+impl Acted for Space3 {
+    const SPEC: ForceSpec = spec(&[0, 1, 2, 3, 4, 5], crate::law::full(6));
+
+    fn state(time: f64, x: &space3::Pose, v: &space3::Twist) -> BodyState {
+        let to_ground = |row: [f64; 3]| row.iter().zip(v.omega).map(|(r, w)| r * w).sum();
+        BodyState {
+            time,
+            position: x.r,
+            rotation: x.rot,
+            angle: 0.0,
+            velocity: v.v,
+            angular_velocity: x.rot.map(to_ground),
+        }
+    }
+
+    /// Torques are those in the frame of the body.
+    fn components(of: &Wrench, x: &space3::Pose) -> [f64; 6] {
+        let [a, b, c] = of.torque;
+        let own = |k: usize| x.rot[0][k] * a + x.rot[1][k] * b + x.rot[2][k] * c;
+        let [fx, fy, fz] = of.force;
+        [fx, fy, fz, own(0), own(1), own(2)]
+    }
+}
+
+/// The facts of a called wrench in a space.
+struct Facts<S>(std::marker::PhantomData<S>);
+
+impl<S: Acted> Facts<S> {
+    const SPEC: ForceSpec = S::SPEC;
+}
+
+impl<S: Acted> Definition<S> for CalledWrench {
+    fn initialise(&mut self, _: &[S::Pose<f64>]) {}
+
+    fn requirement(&self, _: usize, _: &[S::Pose<f64>]) -> bool {
+        true
+    }
+}
+
+impl<S: Acted> ForceElement<f64, S> for CalledWrench {
+    fn spec(&self) -> &'static ForceSpec {
+        &Facts::<S>::SPEC
+    }
+
+    fn q(&self, x: &[S::Pose<f64>], v: &[S::Twist<f64>], f: &[[f64; 3]], out: &mut [f64]) {
+        match self.value(&S::state(f[0][0], &x[0], &v[0])) {
+            Ok(wrench) => {
+                let components = S::components(&wrench, &x[0]);
+                out.iter_mut().zip(components).for_each(|(out, x)| *out = x);
+            }
+            Err(_) => out.fill(f64::NAN),
+        }
+    }
+
+    fn dq_dx(&self, _: &[S::Pose<f64>], _: &[S::Twist<f64>], _: &[[f64; 3]], out: &mut [f64]) {
+        out.fill(f64::NAN);
+    }
+
+    fn dq_dv(&self, _: &[S::Pose<f64>], _: &[S::Twist<f64>], _: &[[f64; 3]], out: &mut [f64]) {
+        out.fill(f64::NAN);
+    }
+}
+
+type Poses<'a, S> = &'a [<S as Space>::Pose<Recorded>];
+type Twists<'a, S> = &'a [<S as Space>::Twist<Recorded>];
+
+/// A function that is called cannot be recorded: generators of code refuse it.
+impl<S: Acted> ForceElement<Recorded, S> for CalledWrench {
+    fn spec(&self) -> &'static ForceSpec {
+        &Facts::<S>::SPEC
+    }
+
+    fn q(&self, _: Poses<'_, S>, _: Twists<'_, S>, _: &[[Recorded; 3]], out: &mut [Recorded]) {
+        out.fill(f64::NAN.into());
+    }
+
+    fn dq_dx(&self, _: Poses<'_, S>, _: Twists<'_, S>, _: &[[Recorded; 3]], out: &mut [Recorded]) {
+        out.fill(f64::NAN.into());
+    }
+
+    fn dq_dv(&self, _: Poses<'_, S>, _: Twists<'_, S>, _: &[[Recorded; 3]], out: &mut [Recorded]) {
+        out.fill(f64::NAN.into());
+    }
+}
+
+/// A downstream crate might make kernels of its own space, so this cannot be said of all spaces.
+macro_rules! force_kernels {
+    ($space:ident) => {
+        impl ForceKernels<$space> for CalledWrench {
+            fn recorded(&self) -> &dyn ForceElement<Recorded, $space> {
+                self
+            }
+
+            fn boxed(&self) -> Box<dyn ForceKernels<$space>> {
+                Box::new(self.clone())
+            }
+
+            fn is_called(&self) -> bool {
+                true
+            }
+
+            fn undefined(
+                &self,
+                x: &[<$space as Space>::Pose<f64>],
+                v: &[<$space as Space>::Twist<f64>],
+                f: &[[f64; 3]],
+            ) -> Option<Undefined> {
+                let state = <$space as Acted>::state(f[0][0], &x[0], &v[0]);
+                self.value(&state).err()
+            }
+        }
+    };
+}
+
+force_kernels!(Plane);
+force_kernels!(Space3);

@@ -1,0 +1,31 @@
+//! Arguments of kernels in double-double.
+
+use linalg::Dd;
+
+use super::bodies::Bodies;
+use super::constraint::PlacedConstraint;
+use super::kernels::{AnyConstraint, with};
+
+/// Poses of all bodies, and what kernels are given besides them, in double-double.
+pub(crate) struct ExtendedSlots {
+    pub(crate) bodies: Bodies<Dd>,
+    pub(crate) jets: Vec<[Dd; 3]>,
+}
+
+impl ExtendedSlots {
+    /// Φ of the holonomic rows of a constraint.
+    pub(crate) fn phi(&self, constraint: &PlacedConstraint, out: &mut [Dd]) {
+        with!(AnyConstraint, constraint.kernels(), element, S => {
+            let x = constraint.site.poses::<S, Dd>(&self.bodies);
+            element.extended().phi(&x, &self.jets[constraint.site.functions.clone()], out);
+        });
+    }
+
+    /// C of a constraint.
+    pub(crate) fn c(&self, constraint: &PlacedConstraint, out: &mut [Dd]) {
+        with!(AnyConstraint, constraint.kernels(), element, S => {
+            let x = constraint.site.poses::<S, Dd>(&self.bodies);
+            element.extended().c(&x, &self.jets[constraint.site.functions.clone()], out);
+        });
+    }
+}

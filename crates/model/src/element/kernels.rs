@@ -1,0 +1,223 @@
+//! Kernels of constraints and forces as trait objects, and the spaces that they are in.
+
+use joints::spec::{ConstraintSpec, ForceSpec};
+use joints::{
+    Constraint, Derivatives, Element, Force, ForceElement, Magnitude, Plane, Recorded, Space3,
+};
+use linalg::Dd;
+
+use crate::body::{BodyRef, DescribedBody};
+use crate::called::CalledWrench;
+use crate::coupling::CouplingError;
+use crate::law::{DriveForce, Law, LawError, Undefined};
+use crate::space::SpaceKind;
+
+/// A space of kernels in which bodies are described: the plane, or space.
+pub trait BodySpace: joints::Space + Sized {
+    /// A body as described.
+    type Body: Clone + std::fmt::Debug + Into<DescribedBody>;
+
+    /// The space of a mechanism of such bodies.
+    const KIND: SpaceKind;
+
+    /// Kernels as one of those of a mechanism.
+    #[doc(hidden)]
+    fn any_constraint(kernels: Box<dyn ConstraintKernels<Self>>) -> AnyConstraint;
+
+    /// The same of a force.
+    #[doc(hidden)]
+    fn any_force(kernels: Box<dyn ForceKernels<Self>>) -> AnyForce;
+
+    /// A point of a body with three coordinates.
+    #[doc(hidden)]
+    fn point(point: Self::Vector<f64>) -> [f64; 3];
+
+    /// The components of a vector in this space.
+    #[doc(hidden)]
+    fn vector(components: [f64; 3]) -> Self::Vector<f64>;
+
+    /// A global point relative to the centre of mass of a body, in its axes.
+    #[doc(hidden)]
+    fn to_local(body: &Self::Body, point: Self::Vector<f64>) -> Self::Vector<f64>;
+
+    /// A law on the measure of a drive, in the place of its motion.
+    #[doc(hidden)]
+    fn law<K: Constraint<Self>>(
+        drive: K,
+        law: Law,
+    ) -> Result<Box<dyn ForceKernels<Self>>, LawError>;
+
+    /// The kernels of a called wrench.
+    #[doc(hidden)]
+    fn wrench(wrench: CalledWrench) -> Box<dyn ForceKernels<Self>>;
+
+    /// The constraint by which the second measure follows the first.
+    #[doc(hidden)]
+    fn couple(
+        measures: [Measured<Self>; 2],
+        coefficients: &[f64],
+    ) -> Result<Placed<Self>, CouplingError>;
+}
+
+/// Kernels of a constraint in the plane or in space.
+#[doc(hidden)]
+#[derive(Clone)]
+pub enum AnyConstraint {
+    /// In the plane.
+    Plane(Box<dyn ConstraintKernels>),
+    /// In space.
+    Space3(Box<dyn ConstraintKernels<Space3>>),
+}
+
+/// Kernels of a force in the plane or in space.
+#[doc(hidden)]
+#[derive(Clone)]
+pub enum AnyForce {
+    /// In the plane.
+    Plane(Box<dyn ForceKernels>),
+    /// In space.
+    Space3(Box<dyn ForceKernels<Space3>>),
+}
+
+/// Evaluates an expression in which `$element` are the kernels, and `$space` their space.
+macro_rules! with {
+    ($any:ident, $kernels:expr, $element:ident, $space:ident => $body:expr) => {
+        match $kernels {
+            $any::Plane($element) => {
+                type $space = joints::Plane;
+                $body
+            }
+            $any::Space3($element) => {
+                type $space = joints::Space3;
+                $body
+            }
+        }
+    };
+}
+pub(super) use with;
+
+/// A measure that can be coupled: the bodies of its joint, and the kernels of its drive.
+pub type Measured<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
+
+/// A constraint with its bodies.
+pub type Placed<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
+
+/// The kernels of a constraint as a trait object: in `f64` for motion, and in other number types.
+pub trait ConstraintKernels<S: BodySpace = Plane>: Derivatives<f64, S> {
+    /// Kernels for certificates.
+    fn extended(&self) -> &dyn Element<Dd, S>;
+    /// Kernels for bounds on the rounding of data.
+    fn magnitude(&self) -> &dyn Element<Magnitude, S>;
+    /// Kernels that record their operations.
+    fn recorded(&self) -> &dyn Element<Recorded, S>;
+    /// A copy.
+    fn boxed(&self) -> Box<dyn ConstraintKernels<S>>;
+}
+
+impl<K: Constraint<S>, S: BodySpace> ConstraintKernels<S> for K {
+    fn extended(&self) -> &dyn Element<Dd, S> {
+        self.element()
+    }
+    fn magnitude(&self) -> &dyn Element<Magnitude, S> {
+        self.element()
+    }
+    fn recorded(&self) -> &dyn Element<Recorded, S> {
+        self.element()
+    }
+    fn boxed(&self) -> Box<dyn ConstraintKernels<S>> {
+        Box::new(self.clone())
+    }
+}
+
+impl<S: BodySpace> Clone for Box<dyn ConstraintKernels<S>> {
+    fn clone(&self) -> Self {
+        self.as_ref().boxed()
+    }
+}
+
+/// The kernels of a force as a trait object.
+pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
+    /// Kernels that record their operations.
+    fn recorded(&self) -> &dyn ForceElement<Recorded, S>;
+    /// A copy.
+    fn boxed(&self) -> Box<dyn ForceKernels<S>>;
+    /// Whether this is a drive by a law.
+    fn is_law(&self) -> bool {
+        false
+    }
+    /// Whether it calls a function of which values alone are known: then its derivatives are NaN.
+    fn is_called(&self) -> bool {
+        false
+    }
+    /// Why its called function has no value, if that is the cause.
+    fn undefined(
+        &self,
+        _x: &[S::Pose<f64>],
+        _v: &[S::Twist<f64>],
+        _f: &[[f64; 3]],
+    ) -> Option<Undefined> {
+        None
+    }
+    /// The same drive by another law, of the same measure: since the start, if the present one is.
+    /// `None` if this is no drive by a law.
+    fn with_law(&self, _law: &Law) -> Option<Box<dyn ForceKernels<S>>> {
+        None
+    }
+    /// The force along the measure of a drive by a law.
+    fn drive(
+        &self,
+        _x: &[S::Pose<f64>],
+        _v: &[S::Twist<f64>],
+        _f: &[[f64; 3]],
+    ) -> Option<DriveForce> {
+        None
+    }
+}
+
+impl<K: Force<S>, S: BodySpace> ForceKernels<S> for K {
+    fn recorded(&self) -> &dyn ForceElement<Recorded, S> {
+        self.element()
+    }
+    fn boxed(&self) -> Box<dyn ForceKernels<S>> {
+        Box::new(self.clone())
+    }
+}
+
+impl<S: BodySpace> Clone for Box<dyn ForceKernels<S>> {
+    fn clone(&self) -> Self {
+        self.as_ref().boxed()
+    }
+}
+
+impl AnyConstraint {
+    pub(crate) fn spec(&self) -> &'static ConstraintSpec {
+        with!(AnyConstraint, self, element, _S => element.spec())
+    }
+
+    pub(crate) fn points(&self) -> Vec<[f64; 3]> {
+        with!(AnyConstraint, self, element, S => {
+            element.points().into_iter().map(S::point).collect()
+        })
+    }
+
+    pub(crate) fn data(&self, out: &mut [f64]) {
+        with!(AnyConstraint, self, element, _S => element.data(out));
+    }
+
+    /// Entries of C that depend on parameters only; the others are left as they are.
+    pub(crate) fn c_constant(&self, out: &mut [f64]) {
+        with!(AnyConstraint, self, element, _S => element.c_constant(out));
+    }
+}
+
+impl AnyForce {
+    pub(crate) fn spec(&self) -> &'static ForceSpec {
+        with!(AnyForce, self, element, _S => element.spec())
+    }
+
+    pub(crate) fn points(&self) -> Vec<[f64; 3]> {
+        with!(AnyForce, self, element, S => {
+            element.points().into_iter().map(S::point).collect()
+        })
+    }
+}

@@ -1,0 +1,52 @@
+//! Why a law or a called function has no finite value.
+
+use super::operation::{Function, Join};
+
+/// Why a law has no finite value, or no derivatives.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Undefined {
+    /// A function of one number.
+    Apply(Function, f64),
+    /// A function of two numbers.
+    Join(Join, f64, f64),
+    /// The measure has no direction, or a number is not finite.
+    Input,
+    /// A called function returned this, which is not a finite number.
+    Returned(String),
+    /// A called function failed, with this message.
+    Failed(String),
+    /// More is asked of a called function than its value.
+    ValueAlone,
+}
+
+impl Undefined {
+    /// Whether a called function is the cause: another state does not mend it.
+    #[must_use]
+    pub fn is_of_function(&self) -> bool {
+        matches!(self, Self::Returned(_) | Self::Failed(_))
+    }
+}
+
+impl std::error::Error for Undefined {}
+
+impl std::fmt::Display for Undefined {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Join(Join::Divide, _, 0.0) => f.write_str("division by zero"),
+            Self::Apply(Function::Log, a) => write!(f, "log({a})"),
+            Self::Apply(Function::Root, a) => write!(f, "sqrt({a})"),
+            Self::Apply(Function::Asin, a) => write!(f, "asin({a})"),
+            Self::Apply(Function::Acos, a) => write!(f, "acos({a})"),
+            Self::Apply(Function::Exp, a) => write!(f, "exp({a})"),
+            Self::Apply(Function::Whole(n), a) => write!(f, "{a}^{n}"),
+            Self::Join(Join::Power, a, b) => write!(f, "{a}^{b}"),
+            Self::Join(Join::Angle, a, b) => write!(f, "atan2({a}, {b})"),
+            Self::Apply(..) | Self::Join(..) => f.write_str("a result that is too large"),
+            Self::Input => f.write_str("a measure without a value"),
+            Self::Returned(x) => write!(f, "its function returned {x}"),
+            Self::Failed(why) => write!(f, "its function failed: {why}"),
+            Self::ValueAlone => f.write_str("a function that is called has values alone"),
+        }
+    }
+}

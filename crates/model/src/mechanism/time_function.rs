@@ -1,0 +1,88 @@
+//! Functions of time as kernels take them.
+
+use joints::Ring;
+use linalg::Dd;
+
+use crate::function::Function;
+
+/// A function of time as passed to an element.
+#[derive(Clone, Debug)]
+pub struct TimeFunction {
+    pub(super) function: Function,
+    /// f(0) for drives, which follow f(t) − f(0); otherwise zero.
+    pub(super) offset: f64,
+    pub(super) form: FunctionForm,
+}
+
+/// The form in which a function enters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FunctionForm {
+    /// The function itself.
+    Value,
+    /// Its cosine; the next function is its sine.
+    Cosine,
+    /// Its sine.
+    Sine,
+}
+
+impl TimeFunction {
+    /// The function, and the value that is subtracted from it: f(0) for drives.
+    #[must_use]
+    pub fn parts(&self) -> (&Function, f64) {
+        (&self.function, self.offset)
+    }
+
+    /// The form in which the difference enters: drives of angles in space take its cosine and its
+    /// sine.
+    #[must_use]
+    pub fn form(&self) -> FunctionForm {
+        self.form
+    }
+
+    /// The numbers of the function ([`crate::function::Parts::numbers`]), then the value that is
+    /// subtracted from it.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<f64> {
+        let mut numbers = self.function.parts().numbers();
+        numbers.push(self.offset);
+        numbers
+    }
+
+    /// The same with these numbers, in the order of [`TimeFunction::numbers`]. `None` if there are
+    /// not as many, or the function cannot have them.
+    #[must_use]
+    pub fn with_numbers(&self, numbers: &[f64]) -> Option<Self> {
+        let (&offset, numbers) = numbers.split_last()?;
+        Some(Self {
+            function: self.function.with_numbers(numbers)?,
+            offset,
+            form: self.form,
+        })
+    }
+
+    /// Its value at t, in this form, with two derivatives.
+    #[must_use]
+    pub fn jet(&self, t: f64) -> [f64; 3] {
+        let [f, d, dd] = self.function.jet(t);
+        self.formed([f - self.offset, d, dd], f64::sin_cos)
+    }
+
+    /// The same in double-double, from the value in `f64`.
+    pub(crate) fn extended_jet(&self, t: f64) -> [Dd; 3] {
+        let [f, d, dd] = self.function.jet(t);
+        let jet = [f - self.offset, d, dd].map(Dd::from);
+        self.formed(jet, Dd::sin_cos)
+    }
+
+    /// The form of a value with two derivatives.
+    fn formed<T: Ring>(&self, [f, d, dd]: [T; 3], sin_cos: impl Fn(T) -> (T, T)) -> [T; 3] {
+        if self.form == FunctionForm::Value {
+            return [f, d, dd];
+        }
+        let (sin, cos) = sin_cos(f);
+        match self.form {
+            FunctionForm::Cosine => [cos, -(sin * d), -(cos * d * d) - sin * dd],
+            _ => [sin, cos * d, cos * dd - sin * d * d],
+        }
+    }
+}
