@@ -22,7 +22,7 @@ const TABLES: [(&str, &str); 6] = [
 /// Numbers that are not chosen and are defined where they are used: facts of the plane and of
 /// `f64`, coefficients of algorithms, special indices.
 const FACTS: [(&str, &[&str]); 14] = [
-    ("dynamics/src/linearise/curve.rs", &["BODY"]),
+    ("dynamics/src/linearise/coordinate.rs", &["BODY"]),
     ("linalg/src/double_double.rs", &["FACTOR", "EPSILON"]),
     (
         "linalg/src/double_double/trigonometry.rs",

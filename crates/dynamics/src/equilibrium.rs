@@ -26,8 +26,7 @@ use balance::{Balance, Statics};
 use linalg::kernels::{dot, norm};
 use stiffness::{Stiffness, Way};
 
-pub use error::EquilibriumError;
-pub use words::Pushed;
+pub use error::{EquilibriumError, Pushed};
 
 /// What is asked of a search for a place of rest.
 #[derive(Clone, Debug, Default, PartialEq)]

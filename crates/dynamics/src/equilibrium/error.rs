@@ -4,7 +4,19 @@ use model::codes::Code;
 use model::words::{listed, rounded};
 use model::{CalledForce, StartError};
 
-use super::words::Pushed;
+/// What pushes a free motion.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Pushed {
+    /// The motion, in words.
+    pub motion: String,
+    /// Force or torque along it, for its fastest translation or rotation.
+    pub force: f64,
+    /// N or N·m.
+    pub unit: &'static str,
+    /// What pushes: the weight and applied forces, in words.
+    pub by: Vec<String>,
+}
 
 /// Reason why no place of rest was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

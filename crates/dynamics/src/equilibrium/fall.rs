@@ -10,8 +10,9 @@ use linalg::kernels::norm;
 use model::words::listed;
 use model::{BodyRef, Mechanism, System};
 
+use super::Pushed;
 use super::balance::Statics;
-use super::words::{Pushed, of_bodies, parts};
+use super::words::{of_bodies, parts};
 use crate::limits::{DEAD_LOAD, UNRESISTED_FORCE};
 
 /// Displacements at which a force is the same if it is a dead load: of the centre of mass (sizes of

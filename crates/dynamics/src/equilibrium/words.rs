@@ -2,22 +2,9 @@
 
 use solvability::motions_among;
 
+use super::Pushed;
 use super::balance::{Balance, Statics};
 use crate::limits::{MOSTLY_TURNS, TAKES_PART, UNRESISTED};
-
-/// What pushes a free motion.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Pushed {
-    /// The motion, in words.
-    pub motion: String,
-    /// Force or torque along it, for its fastest translation or rotation.
-    pub force: f64,
-    /// N or N·m.
-    pub unit: &'static str,
-    /// What pushes: the weight and applied forces, in words.
-    pub by: Vec<String>,
-}
 
 /// Free motions, d components each, in words.
 pub(super) fn motions(statics: &Statics<'_>, at: &Balance, of: &[Vec<f64>]) -> Vec<String> {

@@ -5,18 +5,14 @@ use linalg::{KeptRowSaddle, Matrix};
 use model::space::{cross, norm};
 use model::{Mechanism, Push, System};
 
-use super::coordinates::Coordinate;
+use super::coordinate::{BODY, Coordinate, frame_row};
 use super::error::LineariseError;
-use super::frame_row;
 use crate::differences::{ORDER_6, ORDER_8};
 use crate::limits::{
     LINEARISE_ACCURACY, LINEARISE_SHORTER, LINEARISE_STEP, STEADY_ACCELERATION, STEADY_FRACTION,
 };
 use crate::motion::KeptRowMotion;
 use crate::prepare::Prepared;
-
-/// Directions in which the frame of a body moves: three translations and three rotations.
-pub(crate) const BODY: usize = 6;
 
 /// Weights of the even part of a function, `(f(h) + f(−h))/2 − f(0)`, at the same distances: its
 /// terms of second, fourth and sixth order cancel, and `|x|` has the derivative 1. A corner is

@@ -2,7 +2,7 @@
 
 use model::{Push, System};
 
-use super::Bases;
+use super::bases::Bases;
 use super::curve::{Curves, Derivative};
 use super::error::LineariseError;
 

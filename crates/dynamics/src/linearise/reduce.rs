@@ -1,135 +1,103 @@
-//! Coordinates that a steady motion follows: whatever their values, the motion is the same. They
-//! are left out, and the others are told relative to them.
+//! The motion relative to the coordinates that it follows, which are left out.
 
 use linalg::Matrix;
-use model::Mechanism;
 use model::space::cross;
 
-use super::coordinates::{Chosen, Coordinate, named};
+use super::chosen::Chosen;
+use super::coordinate::{BODY, Coordinate};
 use super::curve::Curves;
 use super::error::LineariseError;
-use super::{BODY, Linearisation};
+use super::followed::Followed;
+use super::linearisation::Linearisation;
 use crate::limits::SYMMETRY;
 
-/// The coordinates that are followed, and how fast axes turn with them.
-pub(crate) struct Followed {
-    pub(crate) coordinates: Vec<Coordinate>,
-    /// Angular velocity of the axes (rad/s).
-    pub(crate) turning: [f64; 3],
+/// Leaves the followed coordinates out, after a check that nothing depends on them.
+pub(crate) fn reduce(
+    followed: &Followed,
+    whole: Linearisation,
+    chosen: &Chosen,
+    curves: &Curves<'_>,
+) -> Result<Linearisation, LineariseError> {
+    let (n, d) = (chosen.len(), chosen.positions.len());
+    let place = |c: &Coordinate| chosen.positions.iter().position(|p| p.row() == c.row());
+    let left_out: Vec<usize> = followed.coordinates.iter().filter_map(place).collect();
+    let symmetries: Vec<Vec<f64>> = followed
+        .coordinates
+        .iter()
+        .map(|c| symmetry(c, chosen, curves))
+        .collect();
+    let largest = whole.a.max_abs();
+    for (c, symmetry) in followed.coordinates.iter().zip(&symmetries) {
+        let mut rate = whole.a.times(symmetry);
+        // What remains in the directions of the other symmetries is no change.
+        let shares: Vec<f64> = left_out.iter().map(|&k| rate[k]).collect();
+        for (share, other) in shares.iter().zip(&symmetries) {
+            rate.iter_mut()
+                .zip(other)
+                .for_each(|(r, s)| *r -= share * s);
+        }
+        let size = symmetry.iter().fold(0.0_f64, |a, s| a.max(s.abs()));
+        let worst = (0..n).fold(0, |a, b| if rate[b].abs() > rate[a].abs() { b } else { a });
+        if rate[worst].abs() > SYMMETRY * largest * size {
+            let states = chosen.positions.iter().chain(&chosen.velocities);
+            return Err(LineariseError::NotASymmetry {
+                name: c.name.clone(),
+                state: states
+                    .map(|c| c.name.clone())
+                    .nth(worst)
+                    .unwrap_or_default(),
+                change: rate[worst],
+            });
+        }
+    }
+    let stay: Vec<usize> = (0..n).filter(|k| !left_out.contains(k)).collect();
+    let relative = |m: &Matrix, i: usize, k: usize| -> f64 {
+        let carried = left_out.iter().zip(&symmetries);
+        m[(stay[i], k)] - carried.map(|(&f, s)| s[stay[i]] * m[(f, k)]).sum::<f64>()
+    };
+    let a = Matrix::from_fn(stay.len(), stay.len(), |i, k| {
+        relative(&whole.a, i, stay[k])
+    });
+    let b = Matrix::from_fn(stay.len(), whole.b.ncols(), |i, k| relative(&whole.b, i, k));
+    let stays = |k: &usize| !left_out.contains(k);
+    let kept: Vec<usize> = (0..d).filter(stays).collect();
+    Ok(Linearisation {
+        a,
+        b,
+        positions: kept.iter().map(|&k| whole.positions[k].clone()).collect(),
+        shapes: whole.shapes.select_rows(&kept),
+        ..whole
+    })
 }
 
-impl Followed {
-    pub(crate) fn of(
-        mechanism: &Mechanism,
-        (q, v): (&[f64], &[f64]),
-        names: &[String],
-    ) -> Result<Self, LineariseError> {
-        let mut found = Self {
-            coordinates: Vec::new(),
-            turning: [0.0; 3],
-        };
-        for name in names {
-            let (coordinate, _) = named(mechanism, name)?;
-            if coordinate.direction >= 3 {
-                let axis = coordinate.direction - 3;
-                let state = mechanism.frames().body(coordinate.body, q, v);
-                found.turning[axis] = state.omega[axis];
-            }
-            if !found.coordinates.contains(&coordinate) {
-                found.coordinates.push(coordinate);
-            }
+/// The states that change if the whole mechanism moves along a coordinate by one, or turns
+/// about its axis.
+fn symmetry(c: &Coordinate, chosen: &Chosen, curves: &Curves<'_>) -> Vec<f64> {
+    let (_, q, v) = curves.state();
+    let frames = curves.mechanism().frames();
+    let axis: [f64; 3] = std::array::from_fn(|k| f64::from(u8::from(k == c.direction % 3)));
+    let turns = c.direction >= 3;
+    let origin = frames.body(c.body, q, v).place;
+    let of_body = |body: usize| -> [[f64; BODY]; 2] {
+        let state = frames.body(body, q, v);
+        if !turns {
+            return [join(axis, [0.0; 3]), [0.0; BODY]];
         }
-        Ok(found)
-    }
-
-    /// Leaves the followed coordinates out, after a check that nothing depends on them.
-    pub(crate) fn reduce(
-        &self,
-        whole: Linearisation,
-        chosen: &Chosen,
-        curves: &Curves<'_>,
-    ) -> Result<Linearisation, LineariseError> {
-        let (n, d) = (chosen.len(), chosen.positions.len());
-        let place = |c: &Coordinate| chosen.positions.iter().position(|p| p.row() == c.row());
-        let left_out: Vec<usize> = self.coordinates.iter().filter_map(place).collect();
-        let symmetries: Vec<Vec<f64>> = self
-            .coordinates
-            .iter()
-            .map(|c| self.symmetry(c, chosen, curves))
-            .collect();
-        let largest = whole.a.max_abs();
-        for (c, symmetry) in self.coordinates.iter().zip(&symmetries) {
-            let mut rate = whole.a.times(symmetry);
-            // What remains in the directions of the other symmetries is no change.
-            let shares: Vec<f64> = left_out.iter().map(|&k| rate[k]).collect();
-            for (share, other) in shares.iter().zip(&symmetries) {
-                rate.iter_mut()
-                    .zip(other)
-                    .for_each(|(r, s)| *r -= share * s);
-            }
-            let size = symmetry.iter().fold(0.0_f64, |a, s| a.max(s.abs()));
-            let worst = (0..n).fold(0, |a, b| if rate[b].abs() > rate[a].abs() { b } else { a });
-            if rate[worst].abs() > SYMMETRY * largest * size {
-                let states = chosen.positions.iter().chain(&chosen.velocities);
-                return Err(LineariseError::NotASymmetry {
-                    name: c.name.clone(),
-                    state: states
-                        .map(|c| c.name.clone())
-                        .nth(worst)
-                        .unwrap_or_default(),
-                    change: rate[worst],
-                });
-            }
-        }
-        let stay: Vec<usize> = (0..n).filter(|k| !left_out.contains(k)).collect();
-        let relative = |m: &Matrix, i: usize, k: usize| -> f64 {
-            let carried = left_out.iter().zip(&symmetries);
-            m[(stay[i], k)] - carried.map(|(&f, s)| s[stay[i]] * m[(f, k)]).sum::<f64>()
-        };
-        let a = Matrix::from_fn(stay.len(), stay.len(), |i, k| {
-            relative(&whole.a, i, stay[k])
-        });
-        let b = Matrix::from_fn(stay.len(), whole.b.ncols(), |i, k| relative(&whole.b, i, k));
-        let stays = |k: &usize| !left_out.contains(k);
-        let kept: Vec<usize> = (0..d).filter(stays).collect();
-        Ok(Linearisation {
-            a,
-            b,
-            positions: kept.iter().map(|&k| whole.positions[k].clone()).collect(),
-            shapes: whole.shapes.select_rows(&kept),
-            ..whole
-        })
-    }
-
-    /// The states that change if the whole mechanism moves along a coordinate by one, or turns
-    /// about its axis.
-    fn symmetry(&self, c: &Coordinate, chosen: &Chosen, curves: &Curves<'_>) -> Vec<f64> {
-        let (_, q, v) = curves.state();
-        let frames = curves.mechanism().frames();
-        let axis: [f64; 3] = std::array::from_fn(|k| f64::from(u8::from(k == c.direction % 3)));
-        let turns = c.direction >= 3;
-        let origin = frames.body(c.body, q, v).place;
-        let of_body = |body: usize| -> [[f64; BODY]; 2] {
-            let state = frames.body(body, q, v);
-            if !turns {
-                return [join(axis, [0.0; 3]), [0.0; BODY]];
-            }
-            let arm = std::array::from_fn(|k| state.place[k] - origin[k]);
-            [
-                join(cross(axis, arm), axis),
-                join(cross(axis, state.velocity), cross(axis, state.omega)),
-            ]
-        };
-        let positions = chosen
-            .positions
-            .iter()
-            .map(|p| of_body(p.body)[0][p.direction]);
-        let velocities = chosen
-            .velocities
-            .iter()
-            .map(|p| of_body(p.body)[1][p.direction]);
-        positions.chain(velocities).collect()
-    }
+        let arm = std::array::from_fn(|k| state.place[k] - origin[k]);
+        [
+            join(cross(axis, arm), axis),
+            join(cross(axis, state.velocity), cross(axis, state.omega)),
+        ]
+    };
+    let positions = chosen
+        .positions
+        .iter()
+        .map(|p| of_body(p.body)[0][p.direction]);
+    let velocities = chosen
+        .velocities
+        .iter()
+        .map(|p| of_body(p.body)[1][p.direction]);
+    positions.chain(velocities).collect()
 }
 
 fn join(x: [f64; 3], y: [f64; 3]) -> [f64; BODY] {

@@ -1,0 +1,114 @@
+//! Coordinates of the frames of bodies: places and turns.
+
+use model::words::listed;
+use model::{Mechanism, SpaceKind};
+
+use super::error::LineariseError;
+
+/// Directions in which the frame of a body moves: three translations and three rotations.
+pub(crate) const BODY: usize = 6;
+
+/// A coordinate of the frame of a body, or its velocity.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Coordinate {
+    /// `body.x`, or `body.vx`.
+    pub name: String,
+    /// Its unit.
+    pub unit: &'static str,
+    pub(crate) body: usize,
+    /// Three translations, then three rotations, along axes of the ground.
+    pub(crate) direction: usize,
+}
+
+impl Coordinate {
+    /// Row of all frames.
+    pub(crate) fn row(&self) -> usize {
+        frame_row(self.body, self.direction)
+    }
+}
+
+/// Names of the directions of a frame: in the plane only some of them exist.
+fn names(space: SpaceKind) -> [[&'static str; 2]; BODY] {
+    match space {
+        SpaceKind::Space3 => [
+            ["x", "vx"],
+            ["y", "vy"],
+            ["z", "vz"],
+            ["rx", "wx"],
+            ["ry", "wy"],
+            ["rz", "wz"],
+        ],
+        _ => [
+            ["x", "vx"],
+            ["y", "vy"],
+            ["", ""],
+            ["", ""],
+            ["", ""],
+            ["angle", "omega"],
+        ],
+    }
+}
+
+/// A direction of a body, as a position or as a velocity.
+pub(crate) fn coordinate(
+    mechanism: &Mechanism,
+    body: usize,
+    direction: usize,
+    is_velocity: bool,
+) -> Coordinate {
+    let name = names(mechanism.space())[direction][usize::from(is_velocity)];
+    let unit = match (direction < 3, is_velocity) {
+        (true, false) => "m",
+        (true, true) => "m/s",
+        (false, false) => "rad",
+        (false, true) => "rad/s",
+    };
+    Coordinate {
+        name: format!("{}.{name}", mechanism.bodies()[body].name),
+        unit,
+        body,
+        direction,
+    }
+}
+
+/// The coordinate of a name, by the name of its position or of its velocity.
+pub(crate) fn named(
+    mechanism: &Mechanism,
+    name: &str,
+) -> Result<(Coordinate, bool), LineariseError> {
+    let refused = |hint: String| LineariseError::Coordinate {
+        name: name.to_owned(),
+        hint,
+    };
+    let known = names(mechanism.space());
+    let parts = || known.iter().flatten().filter(|part| !part.is_empty());
+    let Some((body, part)) = name.rsplit_once('.') else {
+        let some = parts().next().copied().unwrap_or_default();
+        return Err(refused(format!(
+            "need a body and a coordinate, as `body.{some}`"
+        )));
+    };
+    let Some(at) = mechanism.bodies().iter().position(|b| b.name == body) else {
+        let bodies: Vec<_> = mechanism.bodies().iter().map(|b| &b.name).collect();
+        let bodies = listed(&bodies);
+        return Err(refused(format!("there is no body `{body}`, but {bodies}")));
+    };
+    let found = known
+        .iter()
+        .position(|own| !part.is_empty() && own.contains(&part));
+    let Some(direction) = found else {
+        let parts: Vec<_> = parts().collect();
+        return Err(refused(format!("a body has {}", listed(&parts))));
+    };
+    let is_velocity = known[direction][1] == part;
+    Ok((
+        coordinate(mechanism, at, direction, is_velocity),
+        is_velocity,
+    ))
+}
+
+/// Row of the frame of a body and its direction: three translations, then three rotations.
+pub(crate) fn frame_row(body: usize, direction: usize) -> usize {
+    BODY * body + direction
+}

@@ -1,0 +1,48 @@
+//! The linearised motion.
+
+use linalg::Matrix;
+
+use super::coordinate::Coordinate;
+use super::inputs::Input;
+
+/// The linearised motion about a state.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Linearisation {
+    /// Time (s).
+    pub time: f64,
+    /// Coordinates of the state, n_q.
+    pub q: Vec<f64>,
+    /// The positions of x, in front.
+    pub positions: Vec<Coordinate>,
+    /// The velocities of x.
+    pub velocities: Vec<Coordinate>,
+    /// The inputs u.
+    pub inputs: Vec<Input>,
+    /// Drives and joints that functions of time would accelerate, and that are held because the
+    /// state is at rest.
+    pub held: Vec<String>,
+    /// A, square.
+    pub a: Matrix,
+    /// B, a column for each input.
+    pub b: Matrix,
+    /// Mass, damping and stiffness of `M·ÿ + D·ẏ + K·y = …` for the positions y; only at rest,
+    /// without nonholonomic rows and if nothing is followed.
+    pub second_order: Option<SecondOrder>,
+    /// Displacements of all bodies for a change by one of each position, in rows: n_v each.
+    pub shapes: Matrix,
+    /// Difference of two orders of approximation, as a share of the largest entries of A.
+    pub accuracy: f64,
+}
+
+/// Matrices of `M·ÿ + D·ẏ + K·y`.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SecondOrder {
+    /// Masses and moments of inertia.
+    pub mass: Matrix,
+    /// Damping.
+    pub damping: Matrix,
+    /// Stiffness: of springs, of the weight and of the forces that the joints carry.
+    pub stiffness: Matrix,
+}
