@@ -8,12 +8,11 @@ mod expression;
 mod function;
 mod inputs;
 mod model;
+mod names;
 mod scope;
 #[cfg(test)]
 mod tests;
 mod value;
-
-use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 use symbolic::{Expr, Graph};
@@ -26,6 +25,7 @@ pub(crate) use inputs::{Inputs, Source};
 pub(crate) use model::{
     Body, Comparison, Condition, ConstraintBody, Counted, KeptValue, Measure, Model,
 };
+use names::Names;
 use scope::Scope;
 use value::Value;
 
@@ -115,8 +115,7 @@ pub(crate) fn elaborate(d: &Definition) -> syn::Result<Model> {
     let mut scope = Scope {
         definition: d,
         model,
-        values: BTreeMap::new(),
-        used: BTreeSet::new(),
+        names: Names::default(),
     };
     scope.declare_params()?;
     scope.bind()?;
@@ -126,7 +125,7 @@ pub(crate) fn elaborate(d: &Definition) -> syn::Result<Model> {
     } else {
         Body::Force(scope.forces()?)
     };
-    check_use(&scope)?;
+    scope.names.check_use(d)?;
     scope.model.expand_printed();
     Ok(scope.model)
 }
@@ -145,7 +144,7 @@ impl<'a> Scope<'a> {
                 ));
             }
             let value = self.param_value(p)?;
-            self.declare(&p.name, value)?;
+            self.names.declare(self.definition, &p.name, value)?;
         }
         Ok(())
     }
@@ -222,29 +221,13 @@ impl<'a> Scope<'a> {
         })
     }
 
-    fn declare(&mut self, name: &Ident, value: Value) -> syn::Result<()> {
-        if self.definition.slots.contains(name) {
-            return Err(syn::Error::new_spanned(
-                name,
-                format!("`{name}` is a body slot already: choose another name"),
-            ));
-        }
-        match self.values.insert(name.to_string(), value) {
-            Some(_) => Err(syn::Error::new_spanned(
-                name,
-                format!("`{name}` is defined twice"),
-            )),
-            None => Ok(()),
-        }
-    }
-
     fn bind(&mut self) -> syn::Result<()> {
         let definition = self.definition;
         for b in &definition.bindings {
             let value = self.value(&b.value)?;
             let Some(kept) = &b.kept else {
                 self.model.name_value(&b.name.to_string(), &value);
-                self.declare(&b.name, value)?;
+                self.names.declare(self.definition, &b.name, value)?;
                 continue;
             };
             let values = match kept {
@@ -263,7 +246,7 @@ impl<'a> Scope<'a> {
             };
             self.refuse_all(&b.value, check::START)?;
             let value = self.keep(&b.name, kept.clone(), values, None)?;
-            self.declare(&b.name, value)?;
+            self.names.declare(self.definition, &b.name, value)?;
         }
         Ok(())
     }
@@ -299,7 +282,7 @@ impl<'a> Scope<'a> {
                 local: symbols.clone(),
             },
             Kept::Number(_) => Value::Scalar(symbols[0]),
-            Kept::Turn => Value::Scalar(self.counted(name, &values, &symbols)),
+            Kept::Turn => Value::Scalar(self.model.counted_angle(name, &values, &symbols)),
         };
         self.model.kept.push(KeptValue {
             field,
@@ -313,31 +296,6 @@ impl<'a> Scope<'a> {
     }
 }
 
-impl Scope<'_> {
-    /// The angle since the start, with its full turns: what is known of it, and of what is left, ε,
-    /// `sin ε·(4 − cos ε)/3 = ε + O(ε⁵)`. This is the angle where it is known to rounding, and a
-    /// polynomial whose first four derivatives are right there: Γ and its derivatives need three.
-    fn counted(&mut self, name: &Ident, angle: &[Expr], start: &[Expr]) -> Expr {
-        let Model {
-            g, inputs, counted, ..
-        } = &mut self.model;
-        let [known, known_cos, known_sin] = inputs.counted(g, &name.to_string(), counted.len());
-        let since = self
-            .model
-            .angle_since([angle[0], angle[1]], [start[0], start[1]]);
-        self.model.counted.push(since);
-        let g = &mut self.model.g;
-        let (a, b) = (g.mul(since.sin, known_cos), g.mul(since.cos, known_sin));
-        let (c, d) = (g.mul(since.cos, known_cos), g.mul(since.sin, known_sin));
-        let (sin, cos) = (g.sub(a, b), g.add(c, d));
-        let third = g.number(1.0 / 3.0);
-        let product = g.mul(sin, cos);
-        let left = g.sum(&[(4.0, sin), (-1.0, product)]);
-        let left = g.mul(third, left);
-        g.add(known, left)
-    }
-}
-
 /// `arm_i` for the only point in slot i, `arm_s` for a point `s` if the slot has several.
 fn arm_name(definition: &Definition, p: &Param, slot: usize) -> String {
     let here = |q: &&Param| match &q.kind {
@@ -347,22 +305,6 @@ fn arm_name(definition: &Definition, p: &Param, slot: usize) -> String {
     match definition.params.iter().filter(here).count() {
         1 => format!("arm_{}", definition.slots[slot]),
         _ => format!("arm_{}", p.name),
-    }
-}
-
-/// Every name must be used.
-fn check_use(scope: &Scope<'_>) -> syn::Result<()> {
-    let params = scope.definition.params.iter().map(|p| &p.name);
-    let bindings = scope.definition.bindings.iter().map(|b| &b.name);
-    match params
-        .chain(bindings)
-        .find(|name| !scope.used.contains(&name.to_string()))
-    {
-        Some(name) => Err(syn::Error::new_spanned(
-            name,
-            format!("`{name}` is never used: use it or leave it out"),
-        )),
-        None => Ok(()),
     }
 }
 

@@ -1,6 +1,5 @@
 //! Elaboration of one expression of the language: names, functions, shapes.
 
-use proc_macro2::Ident;
 use symbolic::{Expr, Graph, Node};
 use syn::{BinOp, Lit, UnOp};
 
@@ -8,9 +7,7 @@ use super::check::Refusal;
 use super::model::Model;
 use super::scope::Scope;
 use super::value::Value;
-use crate::nearest::hint;
 use crate::parse::Definition;
-use crate::space::Space;
 use crate::vector::{Components, Frame, Vector};
 
 /// Allowed magnitudes of numbers: products of a few of them, and of their derivatives, do not
@@ -36,7 +33,7 @@ impl<'a> Scope<'a> {
             syn::Expr::Group(inner) => self.value(&inner.expr),
             syn::Expr::Lit(literal) => number(&mut self.model.g, &literal.lit),
             syn::Expr::Path(path) => match path.path.get_ident() {
-                Some(name) => self.named(name),
+                Some(name) => self.names.value(self.definition, name),
                 None => Err(syn::Error::new_spanned(path, "expected a name")),
             },
             syn::Expr::Unary(unary) => {
@@ -136,25 +133,6 @@ impl<'a> Scope<'a> {
                 slots[own], slots[used]
             ),
         )
-    }
-
-    fn named(&mut self, name: &Ident) -> syn::Result<Value> {
-        let key = name.to_string();
-        if let Some(value) = self.values.get(&key) {
-            self.used.insert(key);
-            return Ok(value.clone());
-        }
-        let known: Vec<&str> = self.values.keys().map(String::as_str).collect();
-        let mut message = format!("unknown name `{key}`");
-        if self.definition.slots.contains(name) {
-            message.push_str(match self.definition.space {
-                Space::Plane => ": it is a body slot, write `origin(…)` or `angle(…)` of it",
-                Space::Space3 => ": it is a body slot, write `origin(…)` or `spin(…)` of it",
-            });
-        } else {
-            message.push_str(&hint(&key, &known));
-        }
-        Err(syn::Error::new_spanned(name, message))
     }
 
     fn binary(&mut self, b: &'a syn::ExprBinary) -> syn::Result<Value> {

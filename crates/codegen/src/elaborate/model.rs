@@ -149,6 +149,27 @@ impl Model {
         Counted { cos, sin, rate }
     }
 
+    /// The angle since the start, with its full turns: what is known of it, and of what is left, ε,
+    /// `sin ε·(4 − cos ε)/3 = ε + O(ε⁵)`. This is the angle where it is known to rounding, and a
+    /// polynomial whose first four derivatives are right there: Γ and its derivatives need three.
+    pub(super) fn counted_angle(&mut self, name: &Ident, angle: &[Expr], start: &[Expr]) -> Expr {
+        let Self {
+            g, inputs, counted, ..
+        } = self;
+        let [known, known_cos, known_sin] = inputs.counted(g, &name.to_string(), counted.len());
+        let since = self.angle_since([angle[0], angle[1]], [start[0], start[1]]);
+        self.counted.push(since);
+        let g = &mut self.g;
+        let (a, b) = (g.mul(since.sin, known_cos), g.mul(since.cos, known_sin));
+        let (c, d) = (g.mul(since.cos, known_cos), g.mul(since.sin, known_sin));
+        let (sin, cos) = (g.sub(a, b), g.add(c, d));
+        let third = g.number(1.0 / 3.0);
+        let product = g.mul(sin, cos);
+        let left = g.sum(&[(4.0, sin), (-1.0, product)]);
+        let left = g.mul(third, left);
+        g.add(known, left)
+    }
+
     /// Replaces these symbols in all that is printed without further derivatives.
     pub(super) fn expand_printed(&mut self) {
         let Self {

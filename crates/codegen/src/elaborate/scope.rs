@@ -1,15 +1,12 @@
-//! Names of a definition, and their meanings.
-
-use std::collections::{BTreeMap, BTreeSet};
+//! What an expression of a definition is elaborated in.
 
 use super::model::Model;
-use super::value::Value;
+use super::names::Names;
 use crate::parse::Definition;
 
-/// Names in scope, and which of them were used.
+/// A definition, the names in scope, and the mathematics so far.
 pub(super) struct Scope<'a> {
     pub(super) definition: &'a Definition,
     pub(super) model: Model,
-    pub(super) values: BTreeMap<String, Value>,
-    pub(super) used: BTreeSet<String>,
+    pub(super) names: Names,
 }
