@@ -1,42 +1,8 @@
 //! Random changes of a text: mostly such that it remains valid TOML, so that the reader of scenes
 //! and the later stages are tested.
 
-use crate::fuzz::scenes::Space;
+use crate::fuzz::scenes::{EXTREMES, Space};
 use crate::numbers::Numbers;
-
-/// Extreme numbers, valid in some places and invalid in most.
-pub(crate) const EXTREMES: [&str; 30] = [
-    "0",
-    "0.0",
-    "-0.0",
-    "-1",
-    "-1.0",
-    "1e-320",
-    "5e-324",
-    "-5e-324",
-    "2.3e-308",
-    "1e-200",
-    "1e-30",
-    "1e-16",
-    "1e-12",
-    "1e-9",
-    "1e-6",
-    "1e6",
-    "1e9",
-    "1e12",
-    "1e16",
-    "1e30",
-    "1e100",
-    "-1e100",
-    "1e160",
-    "1e308",
-    "-1.7976931348623157e308",
-    "1e400",
-    "nan",
-    "inf",
-    "-inf",
-    "9223372036854775807",
-];
 
 /// Values of all kinds.
 const VALUES: [&str; 30] = [

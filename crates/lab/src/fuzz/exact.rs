@@ -22,6 +22,7 @@
 //! | [`findings`] | the errors in an answer |
 //! | [`words`] | comparison of the sentences |
 //! | [`deletions`] | comparison of the rows that may be deleted |
+//! | [`outcome`] | the result for one scene |
 //! | [`tally`] | many scenes |
 //! | [`doubles`] | a drawing in double precision, at any configuration and for any data |
 //! | [`minimax`] | the smallest change of data that satisfies equations, between proved bounds |
@@ -40,6 +41,7 @@ pub mod findings;
 pub mod loads;
 pub mod minimax;
 pub mod near;
+pub mod outcome;
 pub mod pose;
 pub mod ratio;
 pub mod reference;

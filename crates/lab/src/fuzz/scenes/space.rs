@@ -1,8 +1,9 @@
 //! The tables of a random scene in space: bodies with orientations and tensors, joints with axes.
 
+use super::Values;
+use super::draft::Draft;
 use super::functions::number_or_function;
-use super::things::{active, begin, own_place, place, stiff};
-use super::{Draft, Values};
+use super::parts::{active, begin, own_place, place, stiff};
 
 /// Directions that are an axis of a body or of the ground: parallel axes are frequent.
 const FRAMES: [&str; 2] = ["\"global\"", "\"body\""];

@@ -14,10 +14,10 @@ use super::{Expected, scene};
 use crate::fuzz::exact::answer::answer;
 use crate::fuzz::exact::examine::ranks_and_reactions;
 use crate::fuzz::exact::findings::{Findings, rounding_at};
+use crate::fuzz::exact::outcome::{Outcome, judged};
 use crate::fuzz::exact::reference::{
     Elsewhere, Ranks, Reference, RightReaction, RightWrench, Verdict,
 };
-use crate::fuzz::exact::tally::{Outcome, judged};
 
 /// Tests one scene with all digits of a double.
 #[must_use]

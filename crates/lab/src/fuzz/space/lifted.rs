@@ -34,8 +34,8 @@ use crate::fuzz::exact;
 use crate::fuzz::exact::answer::answer_of;
 use crate::fuzz::exact::families::Family;
 use crate::fuzz::exact::findings::{Findings, Kind, list};
+use crate::fuzz::exact::outcome::{Outcome, judged};
 use crate::fuzz::exact::pose::Writing;
-use crate::fuzz::exact::tally::{Outcome, judged};
 
 /// What follows the name of a pin in a slot in the name of its row in the plane.
 const SLOT: &str = " slot";

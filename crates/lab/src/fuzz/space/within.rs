@@ -19,9 +19,9 @@ use super::vector::Vector;
 use crate::fuzz::exact::answer::answer;
 use crate::fuzz::exact::examine::{self, ranks_and_reactions, reactions};
 use crate::fuzz::exact::findings::Kind;
+use crate::fuzz::exact::outcome::judged;
 use crate::fuzz::exact::reference::{Elsewhere, Reference, Verdict};
 use crate::fuzz::exact::rounded::{DIGITS, Outcome};
-use crate::fuzz::exact::tally::judged;
 use crate::fuzz::exact::within::{BEYOND_DOUBT, FAR, Judged};
 
 /// A row changes by at most so many tolerances: of the two ends of an arm or a direction on each of
