@@ -41,7 +41,7 @@ const RESERVED: [&str; 7] = [
 ];
 
 /// Names of types and traits in the generated module, which no definition can have.
-const RESERVED_TYPES: [&str; 39] = [
+const RESERVED_TYPES: [&str; 40] = [
     "Argument",
     "ArgumentError",
     "Axes",
@@ -66,6 +66,7 @@ const RESERVED_TYPES: [&str; 39] = [
     "Option",
     "Parameter",
     "Pose",
+    "Positions",
     "Reader",
     "Real",
     "Result",

@@ -257,6 +257,7 @@ fn constraint_type(
         definition,
         derivatives,
         element,
+        positions,
         visitor,
         ..
     } = Traits::of(d.space);
@@ -270,6 +271,7 @@ fn constraint_type(
             #spec
             #from_arguments
             fn visit_drives<V: #visitor>(visitor: &mut V) { #(#visit)* }
+            fn positions<T: Ring>(&self) -> &dyn #positions { self }
             fn element<T: Ring>(&self) -> &dyn #element { self }
             fn derivatives<T: Ring>(&self) -> &dyn #derivatives { self }
         }
@@ -287,11 +289,16 @@ fn constraint_type(
 
         #[allow(unused_variables)]
         #[allow(clippy::too_many_arguments)]
-        impl<T: Ring> #element for #name {
+        impl<T: Ring> #positions for #name {
             fn spec(&self) -> &'static ConstraintSpec { &Self::SPEC }
             #phi
             #c_constant
             #c
+        }
+
+        #[allow(unused_variables)]
+        #[allow(clippy::too_many_arguments)]
+        impl<T: Ring> #element for #name {
             #b
             #gamma
             #wrench
@@ -338,6 +345,7 @@ fn turned(model: &mut Model, [cos, sin]: [Expr; 2]) -> Expr {
 struct Traits {
     constraint: TokenStream,
     definition: TokenStream,
+    positions: TokenStream,
     element: TokenStream,
     derivatives: TokenStream,
     visitor: TokenStream,
@@ -351,6 +359,7 @@ impl Traits {
             Space::Plane => Self {
                 constraint: quote!(Constraint),
                 definition: quote!(Definition),
+                positions: quote!(Positions<T>),
                 element: quote!(Element<T>),
                 derivatives: quote!(Derivatives<T>),
                 visitor: quote!(Visitor),
@@ -360,6 +369,7 @@ impl Traits {
             Space::Space3 => Self {
                 constraint: quote!(Constraint<Space3>),
                 definition: quote!(Definition<Space3>),
+                positions: quote!(Positions<T, Space3>),
                 element: quote!(Element<T, Space3>),
                 derivatives: quote!(Derivatives<T, Space3>),
                 visitor: quote!(Visitor<Space3>),

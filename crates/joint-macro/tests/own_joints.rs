@@ -17,7 +17,9 @@ mod pfaff {
 }
 
 use joint_macro::{force, joint};
-use joints::{Constraint, Definition, Derivatives, Element, Force, ForceElement, Pose, Twist};
+use joints::{
+    Constraint, Definition, Derivatives, Element, Force, ForceElement, Pose, Positions, Twist,
+};
 
 joint! { plane EqualDistance(i, j, k) {
     /// The origin of body k is as far from the origin of body i as from the origin of body j:
@@ -57,7 +59,7 @@ fn equal_distance_by_hand() {
         },
     ];
     let mut phi = [0.0];
-    Element::phi(&joint, &x, &[], &mut phi);
+    Positions::phi(&joint, &x, &[], &mut phi);
     // 5 − 13
     assert_eq!(phi, [-8.0]);
 
@@ -69,8 +71,8 @@ fn equal_distance_by_hand() {
         .collect();
     assert_eq!(pattern, [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)]);
     let mut c = [f64::NAN; 6];
-    Element::<f64>::c_constant(&joint, &mut c);
-    Element::c(&joint, &x, &[], &mut c);
+    Positions::<f64>::c_constant(&joint, &mut c);
+    Positions::c(&joint, &x, &[], &mut c);
     assert_eq!(c, [-2.0, -4.0, -6.0, 4.0, 8.0, 0.0]);
 
     // Γ = −2(ȧ·ȧ − ḃ·ḃ), ȧ = (2, 0), ḃ = (1, −1): −2(4 − 2).
@@ -95,7 +97,7 @@ fn the_facade_path_is_used() {
         scale: 2.0,
     };
     let mut phi = [0.0; 2];
-    Element::phi(&pin, &[Pose::GROUND], &[], &mut phi);
+    Positions::phi(&pin, &[Pose::GROUND], &[], &mut phi);
     assert_eq!(phi, [1.0, -3.0]);
 }
 
@@ -163,7 +165,7 @@ fn names_that_collide_are_told_apart() {
     ];
     let f = [[0.25, 0.0, 0.0], [0.5, 0.0, 0.0]];
     let mut phi = [0.0; 2];
-    Element::phi(&joint, &x, &f, &mut phi);
+    Positions::phi(&joint, &x, &f, &mut phi);
     // lambda = (79, 208); −79 − (1 + 2 + … + 14) − 0.25 and −208 − 0.5.
     assert_eq!(phi, [-184.25, -208.5]);
 }
@@ -186,7 +188,7 @@ fn names_of_arguments_hide_nothing() {
     let mut joint = Shadows::new(3.0);
     Definition::initialise(&mut joint, &[Pose::new(2.0, 0.0, 0.0)]);
     let mut phi = [0.0];
-    Element::phi(&joint, &[Pose::new(3.0, 0.0, 0.5)], &[], &mut phi);
+    Positions::phi(&joint, &[Pose::new(3.0, 0.0, 0.5)], &[], &mut phi);
     // out = 1, None = 2: 4 + 2 + 0.5 − 3·2
     assert_eq!(phi, [0.5]);
 }
@@ -228,7 +230,7 @@ fn what_is_computed_from_other_numbers_changes_with_them() {
     Definition::data(&joint, &mut numbers);
     assert_eq!(numbers, [5.0, 4.0]);
     let mut phi = [0.0];
-    Element::phi(&joint, &[Pose::new(4.0, 0.0, 0.5)], &[], &mut phi);
+    Positions::phi(&joint, &[Pose::new(4.0, 0.0, 0.5)], &[], &mut phi);
     assert_eq!(phi, [-19.5]);
 }
 
@@ -408,7 +410,7 @@ fn a_joint_in_space_by_hand() {
     ];
     pin.initialise(&x);
     let mut phi = [0.0; 3];
-    Element::phi(&pin, &x, &[], &mut phi);
+    Positions::phi(&pin, &x, &[], &mut phi);
     assert_eq!(phi, [0.75, 4.0, 0.0]);
     assert_eq!(Element::<f64, _>::place(&pin, &x), [1.0; 3]);
 
@@ -416,7 +418,7 @@ fn a_joint_in_space_by_hand() {
     turn.initialise(&[Pose::GROUND; 2]);
     let mut phi = [0.0];
     // sin(90° − f) for f = 0, given by its cosine and sine.
-    Element::phi(&turn, &x, &[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]], &mut phi);
+    Positions::phi(&turn, &x, &[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]], &mut phi);
     assert_eq!(phi, [1.0]);
     assert_eq!(SlottedPin::SPEC.measures.len(), 1);
 }

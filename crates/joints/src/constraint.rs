@@ -29,6 +29,9 @@ pub trait Constraint<S: Space = Plane>: Derivatives<f64, S> + Clone + 'static {
     /// Calls a visitor with the drives of the measures, in the order of the measures.
     fn visit_drives<V: Visitor<S>>(visitor: &mut V);
 
+    /// Its rows at poses in a number type.
+    fn positions<T: Ring>(&self) -> &dyn Positions<T, S>;
+
     /// Its kernels in a number type.
     fn element<T: Ring>(&self) -> &dyn Element<T, S>;
 
@@ -36,8 +39,9 @@ pub trait Constraint<S: Space = Plane>: Derivatives<f64, S> + Clone + 'static {
     fn derivatives<T: Ring>(&self) -> &dyn Derivatives<T, S>;
 }
 
-/// The kernels of a constraint in closed form, for one number type.
-pub trait Element<T: Ring = f64, S: Space = Plane>: Definition<S> {
+/// The rows of a constraint at poses in closed form, for one number type: all that proofs of ranks
+/// and bounds on the rounding of data need.
+pub trait Positions<T: Ring = f64, S: Space = Plane>: Definition<S> {
     /// The specification of the definition.
     fn spec(&self) -> &'static ConstraintSpec;
 
@@ -50,7 +54,10 @@ pub trait Element<T: Ring = f64, S: Space = Plane>: Definition<S> {
 
     /// Writes the other entries of the block of C: `C = ∂Φ̇/∂v` or `Ψ`.
     fn c(&self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]);
+}
 
+/// The kernels of a constraint in closed form, for one number type.
+pub trait Element<T: Ring = f64, S: Space = Plane>: Positions<T, S> {
     /// Writes `b = −Φt` or `−ψ`, one value for each row; nothing for scleronomic constraints, whose
     /// b is zero.
     fn b(&self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]);

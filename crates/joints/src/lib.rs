@@ -32,7 +32,7 @@ pub mod spec;
 pub mod visitor;
 
 pub use arguments::{Argument, ArgumentError, LARGEST, is_usable};
-pub use constraint::{Constraint, Derivatives, Element};
+pub use constraint::{Constraint, Derivatives, Element, Positions};
 pub use definition::Definition;
 pub use force::{Force, ForceElement};
 pub use former::{FORMER_TYPES, FormerType};

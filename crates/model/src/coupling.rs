@@ -111,10 +111,10 @@ where
 macro_rules! constraint_kernels {
     ($space:ident) => {
         impl ConstraintKernels<$space> for Coupling<$space> {
-            fn extended(&self) -> &dyn joints::Element<linalg::Dd, $space> {
+            fn extended(&self) -> &dyn joints::Positions<linalg::Dd, $space> {
                 self
             }
-            fn magnitude(&self) -> &dyn joints::Element<joints::Magnitude, $space> {
+            fn magnitude(&self) -> &dyn joints::Positions<joints::Magnitude, $space> {
                 self
             }
             fn recorded(&self) -> &dyn joints::Element<joints::Recorded, $space> {

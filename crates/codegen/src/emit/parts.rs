@@ -78,6 +78,7 @@ pub(super) fn uses(runtime: &TokenStream, space: Space, constraint: bool) -> Tok
                         Definition,
                         Derivatives,
                         Element,
+                        Positions,
                         Real,
                         Ring,
                         Visitor
@@ -88,6 +89,7 @@ pub(super) fn uses(runtime: &TokenStream, space: Space, constraint: bool) -> Tok
                     Definition,
                     Derivatives,
                     Element,
+                    Positions,
                     Real,
                     Ring,
                     Space3,

@@ -7,7 +7,7 @@ use joints::generated::{
 use joints::spec::{ConstraintSpec, Datum, DatumShape, ForceSpec};
 use joints::{
     Argument, ArgumentError, Constraint, Definition, Derivatives, Element, Force, ForceElement,
-    Pose, Real, Ring, Twist, Visitor,
+    Pose, Positions, Real, Ring, Twist, Visitor,
 };
 
 use crate::SEED;
@@ -74,6 +74,9 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
         K::from_arguments(arguments).map(Self)
     }
     fn visit_drives<V: Visitor>(_: &mut V) {}
+    fn positions<T: Ring>(&self) -> &dyn Positions<T> {
+        self
+    }
     fn element<T: Ring>(&self) -> &dyn Element<T> {
         self
     }
@@ -118,24 +121,27 @@ impl<K: Constraint, const WRONG: u8> Definition for Mutant<K, WRONG> {
     }
 }
 
-impl<T: Ring, K: Constraint, const WRONG: u8> Element<T> for Mutant<K, WRONG> {
+impl<T: Ring, K: Constraint, const WRONG: u8> Positions<T> for Mutant<K, WRONG> {
     fn spec(&self) -> &'static ConstraintSpec {
         &<Self as Constraint>::SPEC
     }
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.element::<T>().phi(x, f, out);
+        self.0.positions::<T>().phi(x, f, out);
         change(out, WRONG == wrong::PHI);
     }
     fn c_constant(&self, out: &mut [f64]) {
-        self.0.element::<T>().c_constant(out);
+        self.0.positions::<T>().c_constant(out);
         change(out, WRONG == wrong::C_CONSTANT);
     }
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         if WRONG != wrong::C_UNWRITTEN {
-            self.0.element::<T>().c(x, f, out);
+            self.0.positions::<T>().c(x, f, out);
         }
         change(out, WRONG == wrong::C);
     }
+}
+
+impl<T: Ring, K: Constraint, const WRONG: u8> Element<T> for Mutant<K, WRONG> {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.0.element::<T>().b(x, f, out);
         change(out, WRONG == wrong::B);

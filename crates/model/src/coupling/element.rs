@@ -1,10 +1,10 @@
 //! The kernels of a coupling, from those of the drives of its measures.
 
 use joints::spec::ConstraintSpec;
-use joints::{Definition, Derivatives, Element, Real, Ring};
+use joints::{Definition, Derivatives, Element, Positions, Real, Ring};
 
 use super::Coupling;
-use super::side::{At, MOST, Numbers};
+use super::side::{At, KernelNumbers, MOST, Numbers};
 use crate::element::{Kinematics, PoseOf, TwistOf};
 
 /// Both measures at a pose, with h and its derivatives.
@@ -101,7 +101,7 @@ impl<S: Kinematics> Definition<S> for Coupling<S> {
     }
 }
 
-impl<T: Numbers, S: Kinematics> Element<T, S> for Coupling<S> {
+impl<T: Numbers, S: Kinematics> Positions<T, S> for Coupling<S> {
     fn spec(&self) -> &'static ConstraintSpec {
         &self.facts.spec
     }
@@ -123,7 +123,9 @@ impl<T: Numbers, S: Kinematics> Element<T, S> for Coupling<S> {
             }
         }
     }
+}
 
+impl<T: KernelNumbers, S: Kinematics> Element<T, S> for Coupling<S> {
     fn b(&self, _: &[PoseOf<S, T>], _: &[[T; 3]], _: &mut [T]) {}
 
     fn gamma(&self, x: &[PoseOf<S, T>], v: &[TwistOf<S, T>], f: &[[T; 3]], out: &mut [T]) {
@@ -149,7 +151,7 @@ impl<T: Numbers, S: Kinematics> Element<T, S> for Coupling<S> {
         for ((side, at), factor) in self.sides.iter().zip([&both.x, &both.y]).zip(factors) {
             let (spec, own) = (side.drive.spec(), side.own(x));
             let mut entries = [zero; MOST];
-            let kernels = T::of(side.drive.as_ref());
+            let kernels = T::all_of(side.drive.as_ref());
             kernels.wrench(&own, &at.f, &mut entries[..spec.wrench.len()]);
             let mut wrench = [zero; 6];
             for (&[component, _], value) in spec.wrench.iter().zip(entries) {
@@ -180,14 +182,14 @@ impl<T: Numbers, S: Kinematics> Element<T, S> for Coupling<S> {
         T: Real,
     {
         let side = &self.sides[0];
-        T::of(side.drive.as_ref()).place(&side.own(x))
+        T::all_of(side.drive.as_ref()).place(&side.own(x))
     }
 
     fn d_phi_dp(&self, x: &[PoseOf<S, T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
         let both = self.both(x, f);
         let factors = [-both.h[1] * lambda[0], lambda[0]];
         for ((side, at), factor) in self.sides.iter().zip([&both.x, &both.y]).zip(factors) {
-            let kernels = T::of(side.drive.as_ref());
+            let kernels = T::all_of(side.drive.as_ref());
             kernels.d_phi_dp(&side.own(x), &at.f, &[factor], &mut out[side.data.clone()]);
         }
         let mut power = -lambda[0];

@@ -1,7 +1,7 @@
 //! One measure of a coupling: the kernels of its drive, and where they are in those of the
 //! coupling.
 
-use joints::{Element, Magnitude, Recorded, Ring};
+use joints::{Element, Magnitude, Positions, Recorded, Ring};
 use linalg::Dd;
 
 use super::facts::Facts;
@@ -10,32 +10,50 @@ use crate::element::{BodySpace, ConstraintKernels, Kinematics, PoseOf, TwistOf};
 /// Velocities of two bodies.
 pub(super) const MOST: usize = 12;
 
-/// A number type in which constraints have kernels.
+/// A number type in which constraints have rows at poses.
 pub(super) trait Numbers: Ring {
+    /// The rows of a constraint in it.
+    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Positions<Self, S>;
+}
+
+/// A number type in which constraints have all kernels of their equations.
+pub(super) trait KernelNumbers: Numbers {
     /// The kernels of a constraint in it.
-    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Element<Self, S>;
+    fn all_of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Element<Self, S>;
 }
 
 impl Numbers for f64 {
-    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Element<Self, S> {
+    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Positions<Self, S> {
+        kernels
+    }
+}
+
+impl KernelNumbers for f64 {
+    fn all_of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Element<Self, S> {
         kernels
     }
 }
 
 impl Numbers for Dd {
-    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Element<Self, S> {
+    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Positions<Self, S> {
         kernels.extended()
     }
 }
 
 impl Numbers for Magnitude {
-    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Element<Self, S> {
+    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Positions<Self, S> {
         kernels.magnitude()
     }
 }
 
 impl Numbers for Recorded {
-    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Element<Self, S> {
+    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Positions<Self, S> {
+        kernels.recorded()
+    }
+}
+
+impl KernelNumbers for Recorded {
+    fn all_of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Element<Self, S> {
         kernels.recorded()
     }
 }
@@ -150,14 +168,14 @@ impl<S: Kinematics> Side<S> {
     }
 
     /// Γ of the row of its drive.
-    pub(super) fn gamma<T: Numbers>(
+    pub(super) fn gamma<T: KernelNumbers>(
         &self,
         x: &[PoseOf<S, T>; 2],
         v: &[TwistOf<S, T>; 2],
         f: &[[T; 3]; 2],
     ) -> T {
         let mut gamma = [T::from(0.0)];
-        T::of(self.drive.as_ref()).gamma(x, v, f, &mut gamma);
+        T::all_of(self.drive.as_ref()).gamma(x, v, f, &mut gamma);
         gamma[0]
     }
 }

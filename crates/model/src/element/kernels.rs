@@ -2,7 +2,8 @@
 
 use joints::spec::{ConstraintSpec, ForceSpec};
 use joints::{
-    Constraint, Derivatives, Element, Force, ForceElement, Magnitude, Plane, Recorded, Space3,
+    Constraint, Derivatives, Element, Force, ForceElement, Magnitude, Plane, Positions, Recorded,
+    Space3,
 };
 use linalg::Dd;
 
@@ -105,9 +106,9 @@ pub type Placed<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
 /// The kernels of a constraint as a trait object: in `f64` for motion, and in other number types.
 pub trait ConstraintKernels<S: BodySpace = Plane>: Derivatives<f64, S> {
     /// Kernels for certificates.
-    fn extended(&self) -> &dyn Element<Dd, S>;
+    fn extended(&self) -> &dyn Positions<Dd, S>;
     /// Kernels for bounds on the rounding of data.
-    fn magnitude(&self) -> &dyn Element<Magnitude, S>;
+    fn magnitude(&self) -> &dyn Positions<Magnitude, S>;
     /// Kernels that record their operations.
     fn recorded(&self) -> &dyn Element<Recorded, S>;
     /// A copy.
@@ -115,11 +116,11 @@ pub trait ConstraintKernels<S: BodySpace = Plane>: Derivatives<f64, S> {
 }
 
 impl<K: Constraint<S>, S: BodySpace> ConstraintKernels<S> for K {
-    fn extended(&self) -> &dyn Element<Dd, S> {
-        self.element()
+    fn extended(&self) -> &dyn Positions<Dd, S> {
+        self.positions()
     }
-    fn magnitude(&self) -> &dyn Element<Magnitude, S> {
-        self.element()
+    fn magnitude(&self) -> &dyn Positions<Magnitude, S> {
+        self.positions()
     }
     fn recorded(&self) -> &dyn Element<Recorded, S> {
         self.element()

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
 use joints::spec::ConstraintSpec;
-use joints::{Definition, Derivatives, Element, Magnitude, Pose, Recorded, Twist};
+use joints::{Definition, Derivatives, Element, Magnitude, Pose, Positions, Recorded, Twist};
 use linalg::Dd;
 use model::{ConstraintKernels, Joint};
 
@@ -55,10 +55,10 @@ impl Watched {
 }
 
 impl ConstraintKernels for Watched {
-    fn extended(&self) -> &dyn Element<Dd> {
+    fn extended(&self) -> &dyn Positions<Dd> {
         self.inner.extended()
     }
-    fn magnitude(&self) -> &dyn Element<Magnitude> {
+    fn magnitude(&self) -> &dyn Positions<Magnitude> {
         self.inner.magnitude()
     }
     fn recorded(&self) -> &dyn Element<Recorded> {
@@ -87,7 +87,7 @@ impl Definition for Watched {
     }
 }
 
-impl Element for Watched {
+impl Positions for Watched {
     fn spec(&self) -> &'static ConstraintSpec {
         self.inner.spec()
     }
@@ -102,6 +102,9 @@ impl Element for Watched {
         self.note(x, |calls| &mut calls.c);
         self.inner.c(x, f, out);
     }
+}
+
+impl Element for Watched {
     fn b(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.b);
         self.inner.b(x, f, out);
