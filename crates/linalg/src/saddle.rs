@@ -36,6 +36,7 @@ mod lu;
 mod order;
 mod orientation;
 mod partition;
+mod plan;
 mod refine;
 mod solve;
 #[cfg(test)]

@@ -79,7 +79,7 @@ mod tests {
             let mut saddle = KeptRowSaddle::with_columns(N, &columns).unwrap();
             saddle.factor(|k| c.row(k).1, &[1.0; N]).unwrap();
             let found = saddle.lu.n_entries();
-            let order = saddle.lu.order.rows.iter().map(|&k| c.row(k).0);
+            let order = saddle.lu.order().rows.iter().map(|&k| c.row(k).0);
             let most = bound(N, &Vec::from_iter(order));
             assert!(
                 found[0] <= most[0] && found[1] <= most[1],

@@ -32,7 +32,7 @@ impl KeptRowSaddle {
         self.prepare(&row, mass)?;
         let graded = self.is_graded.then_some(mass);
         for j in 0..self.lu.n_rows() {
-            let k = self.lu.order.rows[j];
+            let k = self.lu.order().rows[j];
             let row = (k, row(k));
             if let Elimination::Dependent { pivot, scale } =
                 self.lu.eliminate(row, graded, PIVOT_FLOOR)?
@@ -89,7 +89,7 @@ impl KeptRowSaddle {
         let graded = self.is_graded.then_some(mass);
         let floor = floor.max(PIVOT_FLOOR);
         for j in 0..self.lu.n_rows() {
-            let k = self.lu.order.rows[j];
+            let k = self.lu.order().rows[j];
             self.lu.eliminate((k, row(k)), graded, floor)?;
         }
         let free = self.lu.n - self.lu.r;

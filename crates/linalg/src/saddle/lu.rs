@@ -13,7 +13,8 @@
 use super::error::{SaddleError, check_length};
 use super::lists::{Entries, Entry, Lists};
 use super::order::Order;
-use crate::limits::{CANDIDATE, LARGEST_REPEATED, PIVOT_CHOSEN, PIVOT_REPEATED, RESERVED};
+use super::plan::{Chosen, Plan};
+use crate::limits::RESERVED;
 
 /// Factors of the rows that are used.
 #[derive(Debug, Clone)]
@@ -21,25 +22,35 @@ pub(super) struct TallLu {
     pub(super) n: usize,
     /// Columns outside which each row of C is zero.
     pub(super) columns: Lists,
-    /// Coordinates that may be solved for; all if `None`.
-    solvable: Option<Vec<bool>>,
-    /// Whether rows are solved for smaller entries to spare others. Not where nothing is gained by
-    /// that, nor where pivots have to tell how good given coordinates are.
-    spares: bool,
-    pub(super) order: Order,
-    /// The place of each row in the order, none before it is chosen, and for each coordinate the
-    /// places of the rows that can have entries there, ascending.
-    place: Vec<u32>,
-    touching: Lists,
+    plan: Plan,
     /// Number of rows in use: all rows without the skipped ones.
     pub(super) r: usize,
-    /// The row of C for each row in use, and the coordinate that it is solved for. Of
-    /// the last factorisation while the next one repeats it.
+    solved: Solved,
+    factors: Factors,
+    /// Coordinates that no row is solved for.
+    pub(super) free: Vec<usize>,
+    is_changed: bool,
+    /// Smallest `largest entry left / largest entry` of a row, rows left out included.
+    pub(super) pivot_ratio: f64,
+    work: Work,
+}
+
+/// Rows in use and what they are solved for. Of the last factorisation while the next one repeats
+/// it.
+#[derive(Debug, Clone)]
+struct Solved {
+    /// The row of C for each row in use, and the coordinate that it is solved for.
     used: Vec<usize>,
-    is_used: Vec<bool>,
     pivot: Vec<usize>,
+    /// Whether each row of C is in use.
+    is_used: Vec<bool>,
     /// The row in use that is solved for each coordinate, `u32::MAX` for none.
     row_of: Vec<u32>,
+}
+
+/// Entries of L and U.
+#[derive(Debug, Clone)]
+struct Factors {
     /// Row j: `U_kj` of the rows k < j that it is eliminated with, ascending.
     upper: Entries,
     /// Row j: column j of L below its unit diagonal, by coordinates.
@@ -47,12 +58,6 @@ pub(super) struct TallLu {
     /// U_jj of each row in use, and 1/U_jj: a product is cheaper than a quotient.
     diagonal: Vec<f64>,
     inverse: Vec<f64>,
-    /// Coordinates that no row is solved for.
-    pub(super) free: Vec<usize>,
-    is_changed: bool,
-    /// Smallest `largest entry left / largest entry` of a row, rows left out included.
-    pub(super) pivot_ratio: f64,
-    work: Work,
 }
 
 /// The row that is being eliminated.
@@ -79,111 +84,6 @@ pub(super) enum Elimination {
     },
 }
 
-/// What decides which entry a row is solved for: its size, and masses if they are graded, or else
-/// the number of later rows in its coordinate.
-#[derive(Clone, Copy)]
-struct Choice<'a> {
-    solvable: Option<&'a [bool]>,
-    graded: Option<&'a [f64]>,
-    spares: bool,
-}
-
-/// The coordinate that a row is solved for, and the size by which it is compared with others: the
-/// largest entry, or its own where masses are graded.
-type Chosen = (usize, f64);
-
-impl Choice<'_> {
-    /// The coordinate to be solved for, `None` if no entry can be: the wished one if its entry is
-    /// large enough, or else the one in which the fewest later rows can have entries.
-    fn best(
-        self,
-        x: &[f64],
-        among: impl Iterator<Item = usize> + Clone,
-        (wish, later): (Option<usize>, impl Fn(usize) -> usize),
-    ) -> Option<Chosen> {
-        let among = among.filter(|&i| self.solvable.is_none_or(|solvable| solvable[i]));
-        let larger = |a: usize, b: usize| {
-            let is_larger = x[b].abs() > x[a].abs() || x[b].abs() == x[a].abs() && b < a;
-            if is_larger || x[a].is_nan() { b } else { a }
-        };
-        let largest = among.clone().reduce(larger)?;
-        let size = x[largest].abs();
-        if self.graded.is_some() {
-            let at = self.lightest(x, among, size)?;
-            return Some((at, x[at].abs()));
-        }
-        let least = if self.spares { PIVOT_CHOSEN } else { 1.0 } * size;
-        let candidates = among.filter(|&i| x[i].abs() >= least);
-        if let Some(at) = candidates.clone().find(|i| Some(*i) == wish) {
-            return Some((at, size));
-        }
-        let rarer = |a: (usize, usize), b: (usize, usize)| {
-            let [rows, other] = [a.1, b.1];
-            if other < rows || other == rows && larger(a.0, b.0) == b.0 {
-                b
-            } else {
-                a
-            }
-        };
-        let rarest = candidates.map(|i| (i, later(i))).reduce(rarer);
-        Some((rarest.map_or(largest, |(at, _)| at), size))
-    }
-
-    /// The coordinate with the largest c²/m among the large entries of graded masses.
-    fn lightest(
-        self,
-        x: &[f64],
-        among: impl Iterator<Item = usize>,
-        largest: f64,
-    ) -> Option<usize> {
-        let mass = self.graded?;
-        let candidates = among.filter(|&i| x[i].abs() >= CANDIDATE * largest);
-        // Compares c²/m without quotients: masses may be zero.
-        let lighter = |a: usize, b: usize| {
-            let [of_a, of_b] = [x[a] * x[a] * mass[b], x[b] * x[b] * mass[a]];
-            if of_b > of_a || of_b == of_a && b < a {
-                b
-            } else {
-                a
-            }
-        };
-        candidates.reduce(lighter)
-    }
-
-    /// Size of the largest entry that can be solved for, if the one of this coordinate is still as
-    /// good as the best one, except for the share [`PIVOT_REPEATED`].
-    fn largest(
-        self,
-        x: &[f64],
-        at: usize,
-        others: impl Iterator<Item = usize> + Clone,
-    ) -> Option<f64> {
-        let pivot = x[at].abs();
-        let larger = |m: f64, i: usize| if x[i].abs() > m { x[i].abs() } else { m };
-        let Some(mass) = self.graded else {
-            let largest = match self.solvable {
-                None => others.fold(pivot, larger),
-                Some(solvable) => others.filter(|&i| solvable[i]).fold(pivot, larger),
-            };
-            // False for NaN, too.
-            let share = if self.spares {
-                PIVOT_REPEATED
-            } else {
-                LARGEST_REPEATED
-            };
-            return (pivot >= share * largest).then_some(largest);
-        };
-        let others = others.filter(|&i| self.solvable.is_none_or(|solvable| solvable[i]));
-        let all = others.chain([at]);
-        let largest = all.clone().fold(0.0, larger);
-        let best = self.lightest(x, all, largest)?;
-        let share = LARGEST_REPEATED * x[best];
-        let is_light = x[at] * x[at] * mass[best] >= share * share * mass[at];
-        // Compared with others, a row solved for a light coordinate has its own pivot.
-        (pivot >= CANDIDATE * largest && is_light).then_some(pivot)
-    }
-}
-
 /// Sum of entries times the values at their places.
 #[inline(always)]
 fn product(entries: &[Entry], x: &[f64]) -> f64 {
@@ -203,20 +103,20 @@ impl TallLu {
         Self {
             n,
             columns: lists,
-            order: Order::default(),
-            place: Vec::with_capacity(rows),
-            touching: Lists::with_capacity(n, entries),
-            solvable: None,
-            spares: false,
+            plan: Plan::new(n, rows, entries),
             r: 0,
-            used: Vec::with_capacity(rows),
-            is_used: vec![false; rows],
-            pivot: Vec::with_capacity(rows),
-            row_of: vec![u32::MAX; n],
-            upper: Entries::with_capacity(rows, reserved),
-            lower: Entries::with_capacity(rows, reserved),
-            diagonal: vec![0.0; rows],
-            inverse: vec![0.0; rows],
+            solved: Solved {
+                used: Vec::with_capacity(rows),
+                pivot: Vec::with_capacity(rows),
+                is_used: vec![false; rows],
+                row_of: vec![u32::MAX; n],
+            },
+            factors: Factors {
+                upper: Entries::with_capacity(rows, reserved),
+                lower: Entries::with_capacity(rows, reserved),
+                diagonal: vec![0.0; rows],
+                inverse: vec![0.0; rows],
+            },
             free: (0..n).collect(),
             is_changed: true,
             pivot_ratio: f64::INFINITY,
@@ -237,60 +137,42 @@ impl TallLu {
     /// Numbers of entries of U and of L below their diagonals.
     #[cfg(test)]
     pub(super) fn n_entries(&self) -> [usize; 2] {
-        [&self.upper, &self.lower].map(Entries::n_entries)
+        [&self.factors.upper, &self.factors.lower].map(Entries::n_entries)
     }
 
     /// From now on rows are solved for these coordinates only; for any if `None`.
     pub(super) fn solve_for(&mut self, solvable: Option<Vec<bool>>) {
-        self.solvable = solvable;
-        self.place.clear();
+        self.plan.solve_for(solvable);
         self.keep(0);
+    }
+
+    /// The order of the rows.
+    pub(super) fn order(&self) -> &Order {
+        &self.plan.order
     }
 
     /// Removes all rows. Their order is chosen, by these values, if that has not been done.
     pub(super) fn begin<'c>(&mut self, row: impl Fn(usize) -> &'c [f64]) {
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
-        if self.place.len() < self.n_rows() {
-            self.choose_order(row);
+        if self.plan.is_due(&self.columns) {
+            self.plan.choose(self.n, &self.columns, row);
         }
-    }
-
-    fn choose_order<'c>(&mut self, row: impl Fn(usize) -> &'c [f64]) {
-        let entries = |k: usize| {
-            let entries = self.columns.of(k).iter().zip(row(k));
-            entries.map(|(&i, &c)| Entry::new(i as usize, c)).collect()
-        };
-        let rows = (0..self.n_rows()).map(entries).collect();
-        self.order = Order::new(self.n, rows, self.solvable.as_deref());
-        self.spares = self.solvable.is_none() && self.order.is_planned();
-        self.place.resize(self.n_rows(), 0);
-        let mut touching = vec![Vec::new(); self.n];
-        for (place, &row) in self.order.rows.iter().enumerate() {
-            self.place[row] = place as u32;
-            for &column in self.columns.of(row) {
-                touching[column as usize].push(place as u32);
-            }
-        }
-        self.touching.clear();
-        touching
-            .into_iter()
-            .for_each(|list| self.touching.push(list));
     }
 
     /// The rows of C in use.
     pub(super) fn used(&self) -> &[usize] {
-        &self.used[..self.r]
+        &self.solved.used[..self.r]
     }
 
     /// Whether row k of C is in use.
     pub(super) fn uses(&self, k: usize) -> bool {
-        self.is_used[k]
+        self.solved.is_used[k]
     }
 
     /// The coordinate that each row in use is solved for.
     pub(super) fn pivots(&self) -> &[usize] {
-        &self.pivot[..self.r]
+        &self.solved.pivot[..self.r]
     }
 
     /// Computes the next column of U and of L from the values of a row of C in its columns:
@@ -323,7 +205,7 @@ impl TallLu {
         }
         let least = floor * scale;
         let j = self.r;
-        if self.used.get(j) == Some(&row) {
+        if self.solved.used.get(j) == Some(&row) {
             if let Some([pivot, inverse, largest]) = self.repeat(graded, least) {
                 self.note(largest, scale);
                 self.accept(pivot, inverse);
@@ -338,16 +220,16 @@ impl TallLu {
                 let pivot = self.work.x[at];
                 self.keep(j);
                 self.is_changed = true;
-                self.used.push(row);
-                self.pivot.push(at);
-                self.row_of[at] = j as u32;
-                self.upper.push(self.work.upper.iter().copied());
+                self.solved.used.push(row);
+                self.solved.pivot.push(at);
+                self.solved.row_of[at] = j as u32;
+                self.factors.upper.push(self.work.upper.iter().copied());
                 let Work { x, touched, .. } = &self.work;
-                let row_of = &self.row_of;
+                let row_of = &self.solved.row_of;
                 let below = touched.iter().filter(|&&i| row_of[i] == u32::MAX);
                 let inverse = 1.0 / pivot;
                 let entry = |&i: &usize| Entry::new(i, x[i] * inverse);
-                self.lower.push(below.map(entry));
+                self.factors.lower.push(below.map(entry));
                 self.clear();
                 self.note(size, scale);
                 self.accept(pivot, inverse);
@@ -367,23 +249,19 @@ impl TallLu {
     fn repeat(&mut self, graded: Option<&[f64]>, least: f64) -> Option<[f64; 3]> {
         let j = self.r;
         let x = &mut self.work.x[..];
-        for entry in self.upper.of_mut(j) {
+        for entry in self.factors.upper.of_mut(j) {
             let u_kj = std::mem::take(&mut x[entry.at()]);
             entry.value = u_kj;
             // Entries of a joint along the axes of the ground are often zero.
             if u_kj != 0.0 {
-                for l in self.lower.of(entry.index()) {
+                for l in self.factors.lower.of(entry.index()) {
                     x[l.index()] -= u_kj * l.value;
                 }
             }
         }
-        let at = self.pivot[j];
-        let choice = Choice {
-            solvable: self.solvable.as_deref(),
-            graded,
-            spares: self.spares,
-        };
-        let below = self.lower.of_mut(j);
+        let at = self.solved.pivot[j];
+        let choice = self.plan.choice(graded);
+        let below = self.factors.lower.of_mut(j);
         let pivot = x[at];
         let largest = choice.largest(x, at, below.iter().map(Entry::index));
         let largest = largest.filter(|_| pivot.abs() > least);
@@ -406,7 +284,7 @@ impl TallLu {
             rows,
             upper,
         } = &mut self.work;
-        let row_of = &self.row_of;
+        let row_of = &self.solved.row_of;
         let mut touch = |i: usize, rows: &mut [u64]| {
             if !std::mem::replace(&mut is_touched[i], true) {
                 touched.push(i);
@@ -426,28 +304,20 @@ impl TallLu {
                 let bit = rows[word].trailing_zeros();
                 rows[word] &= rows[word] - 1;
                 let k = 64 * word + bit as usize;
-                let at = self.pivot[k];
+                let at = self.solved.pivot[k];
                 let u_kj = x[at];
                 upper.push(Entry::of_row(k, at, u_kj));
-                for l in self.lower.of(k) {
+                for l in self.factors.lower.of(k) {
                     x[l.index()] -= u_kj * l.value;
                     touch(l.index(), rows);
                 }
             }
         }
         touched.sort_unstable();
-        let choice = Choice {
-            solvable: self.solvable.as_deref(),
-            graded,
-            spares: self.spares,
-        };
         let left = touched.iter().copied().filter(|&i| row_of[i] >= j);
-        let place = self.place[row];
-        let later = |i: usize| {
-            let places = self.touching.of(i);
-            places.len() - places.partition_point(|&p| p <= place)
-        };
-        choice.best(x, left, (self.order.wish[place as usize], later))
+        self.plan
+            .choice(graded)
+            .best(x, left, self.plan.of_row(row))
     }
 
     /// Clears the scratch of a row.
@@ -468,22 +338,22 @@ impl TallLu {
 
     /// Forgets what the last factorisation did with all but its first rows.
     fn keep(&mut self, rows: usize) {
-        if rows >= self.used.len() {
+        if rows >= self.solved.used.len() {
             return;
         }
         self.is_changed = true;
-        for &coordinate in &self.pivot[rows..] {
-            self.row_of[coordinate] = u32::MAX;
+        for &coordinate in &self.solved.pivot[rows..] {
+            self.solved.row_of[coordinate] = u32::MAX;
         }
-        self.used.truncate(rows);
-        self.pivot.truncate(rows);
-        self.upper.truncate(rows);
-        self.lower.truncate(rows);
+        self.solved.used.truncate(rows);
+        self.solved.pivot.truncate(rows);
+        self.factors.upper.truncate(rows);
+        self.factors.lower.truncate(rows);
     }
 
     fn accept(&mut self, pivot: f64, inverse: f64) {
-        self.diagonal[self.r] = pivot;
-        self.inverse[self.r] = inverse;
+        self.factors.diagonal[self.r] = pivot;
+        self.factors.inverse[self.r] = inverse;
         self.r += 1;
     }
 
@@ -498,12 +368,15 @@ impl TallLu {
         self.keep(self.r);
         let is_changed = std::mem::take(&mut self.is_changed);
         if is_changed {
-            let row_of = &self.row_of;
+            let row_of = &self.solved.row_of;
             self.free.clear();
             self.free
                 .extend((0..self.n).filter(|&i| row_of[i] == u32::MAX));
-            self.is_used.fill(false);
-            self.used.iter().for_each(|&row| self.is_used[row] = true);
+            self.solved.is_used.fill(false);
+            self.solved
+                .used
+                .iter()
+                .for_each(|&row| self.solved.is_used[row] = true);
         }
         is_changed
     }
@@ -512,36 +385,36 @@ impl TallLu {
     /// column of L below its diagonal.
     #[inline(always)]
     pub(super) fn backward(&self) -> impl Iterator<Item = (usize, &[Entry])> {
-        let pivots = self.pivot[..self.r].iter().enumerate().rev();
-        pivots.map(|(j, &at)| (at, self.lower.of(j)))
+        let pivots = self.solved.pivot[..self.r].iter().enumerate().rev();
+        pivots.map(|(j, &at)| (at, self.factors.lower.of(j)))
     }
 
     /// The entries of y that are solved for, such that `C·y = γ` with the others that are there:
     /// `Uᵀ·s = γ`, `L₁ᵀ·y₁ = s − L₂ᵀ·y₂`.
     pub(super) fn determine(&self, gamma: &[f64], y: &mut [f64]) {
-        for (j, (&row, &at)) in self.used.iter().zip(&self.pivot).enumerate() {
-            let upper = self.upper.of(j).iter();
+        for (j, (&row, &at)) in self.solved.used.iter().zip(&self.solved.pivot).enumerate() {
+            let upper = self.factors.upper.of(j).iter();
             let sum: f64 = upper.map(|u| u.value * y[u.at()]).sum();
-            y[at] = (gamma[row] - sum) * self.inverse[j];
+            y[at] = (gamma[row] - sum) * self.factors.inverse[j];
         }
-        for (j, &at) in self.pivot.iter().enumerate().rev() {
-            y[at] -= product(self.lower.of(j), y);
+        for (j, &at) in self.solved.pivot.iter().enumerate().rev() {
+            y[at] -= product(self.factors.lower.of(j), y);
         }
     }
 
     /// λ of the rows in use with `L·U·λ = g`, whose rows all hold if those of L₁ do; uses up g,
     /// which is by coordinates.
     pub(super) fn solve_for_multipliers(&self, g: &mut [f64], lambda: &mut [f64]) {
-        for (j, &at) in self.pivot.iter().enumerate() {
+        for (j, &at) in self.solved.pivot.iter().enumerate() {
             let g_j = g[at];
-            for l in self.lower.of(j) {
+            for l in self.factors.lower.of(j) {
                 g[l.index()] -= g_j * l.value;
             }
         }
-        for (j, &at) in self.pivot.iter().enumerate().rev() {
-            let lambda_j = g[at] * self.inverse[j];
-            lambda[self.used[j]] = lambda_j;
-            for u in self.upper.of(j) {
+        for (j, &at) in self.solved.pivot.iter().enumerate().rev() {
+            let lambda_j = g[at] * self.factors.inverse[j];
+            lambda[self.solved.used[j]] = lambda_j;
+            for u in self.factors.upper.of(j) {
                 g[u.at()] -= lambda_j * u.value;
             }
         }
@@ -550,7 +423,13 @@ impl TallLu {
     /// Sign and logarithm of `sign(P)·Π u_jj`, where P takes the coordinates that are solved for
     /// first, and then the free ones.
     pub(super) fn determinant(&self) -> (f64, f64) {
-        let order: Vec<usize> = self.pivot.iter().chain(&self.free).copied().collect();
+        let order: Vec<usize> = self
+            .solved
+            .pivot
+            .iter()
+            .chain(&self.free)
+            .copied()
+            .collect();
         let mut is_seen = vec![false; self.n];
         let mut sign = 1.0;
         for first in 0..self.n {
@@ -564,7 +443,7 @@ impl TallLu {
                 sign = -sign;
             }
         }
-        let diagonal = &self.diagonal[..self.r];
+        let diagonal = &self.factors.diagonal[..self.r];
         (
             sign * diagonal.iter().map(|u| u.signum()).product::<f64>(),
             diagonal.iter().map(|u| u.abs().ln()).sum(),

@@ -1,0 +1,199 @@
+//! Which row is eliminated when, and which coordinate it is solved for.
+
+use super::lists::{Entry, Lists};
+use super::order::Order;
+use crate::limits::{CANDIDATE, LARGEST_REPEATED, PIVOT_CHOSEN, PIVOT_REPEATED};
+
+/// What decides which coordinates rows are solved for.
+#[derive(Debug, Clone)]
+pub(super) struct Plan {
+    /// Coordinates that may be solved for; all if `None`.
+    solvable: Option<Vec<bool>>,
+    /// Whether rows are solved for smaller entries to spare others. Not where nothing is gained by
+    /// that, nor where pivots have to tell how good given coordinates are.
+    spares: bool,
+    pub(super) order: Order,
+    /// The place of each row in the order, none before it is chosen, and for each coordinate the
+    /// places of the rows that can have entries there, ascending.
+    place: Vec<u32>,
+    touching: Lists,
+}
+
+impl Plan {
+    /// No order yet of so many rows for n coordinates.
+    pub(super) fn new(n: usize, rows: usize, entries: usize) -> Self {
+        Self {
+            solvable: None,
+            spares: false,
+            order: Order::default(),
+            place: Vec::with_capacity(rows),
+            touching: Lists::with_capacity(n, entries),
+        }
+    }
+
+    /// From now on rows are solved for these coordinates only; for any if `None`. Their order is to
+    /// be chosen anew.
+    pub(super) fn solve_for(&mut self, solvable: Option<Vec<bool>>) {
+        self.solvable = solvable;
+        self.place.clear();
+    }
+
+    /// Whether the order is still to be chosen.
+    pub(super) fn is_due(&self, columns: &Lists) -> bool {
+        self.place.len() < columns.len()
+    }
+
+    /// Chooses the order by the values of the rows in their columns.
+    pub(super) fn choose<'c>(
+        &mut self,
+        n: usize,
+        columns: &Lists,
+        row: impl Fn(usize) -> &'c [f64],
+    ) {
+        let entries = |k: usize| {
+            let entries = columns.of(k).iter().zip(row(k));
+            entries.map(|(&i, &c)| Entry::new(i as usize, c)).collect()
+        };
+        let rows = (0..columns.len()).map(entries).collect();
+        self.order = Order::new(n, rows, self.solvable.as_deref());
+        self.spares = self.solvable.is_none() && self.order.is_planned();
+        self.place.resize(columns.len(), 0);
+        let mut touching = vec![Vec::new(); n];
+        for (place, &row) in self.order.rows.iter().enumerate() {
+            self.place[row] = place as u32;
+            for &column in columns.of(row) {
+                touching[column as usize].push(place as u32);
+            }
+        }
+        self.touching.clear();
+        touching
+            .into_iter()
+            .for_each(|list| self.touching.push(list));
+    }
+
+    /// How the entry is chosen that a row is solved for; by masses if they are graded.
+    #[inline]
+    pub(super) fn choice<'a>(&'a self, graded: Option<&'a [f64]>) -> Choice<'a> {
+        Choice {
+            solvable: self.solvable.as_deref(),
+            graded,
+            spares: self.spares,
+        }
+    }
+
+    /// The coordinate in which a row leaves the others alone most, if the order has one for it, and
+    /// the number of later rows that can have entries in a coordinate.
+    pub(super) fn of_row(&self, row: usize) -> (Option<usize>, impl Fn(usize) -> usize) {
+        let place = self.place[row];
+        let later = move |i: usize| {
+            let places = self.touching.of(i);
+            places.len() - places.partition_point(|&p| p <= place)
+        };
+        (self.order.wish[place as usize], later)
+    }
+}
+
+/// What decides which entry a row is solved for: its size, and masses if they are graded, or else
+/// the number of later rows in its coordinate.
+#[derive(Clone, Copy)]
+pub(super) struct Choice<'a> {
+    solvable: Option<&'a [bool]>,
+    graded: Option<&'a [f64]>,
+    spares: bool,
+}
+
+/// The coordinate that a row is solved for, and the size by which it is compared with others: the
+/// largest entry, or its own where masses are graded.
+pub(super) type Chosen = (usize, f64);
+
+impl Choice<'_> {
+    /// The coordinate to be solved for, `None` if no entry can be: the wished one if its entry is
+    /// large enough, or else the one in which the fewest later rows can have entries.
+    pub(super) fn best(
+        self,
+        x: &[f64],
+        among: impl Iterator<Item = usize> + Clone,
+        (wish, later): (Option<usize>, impl Fn(usize) -> usize),
+    ) -> Option<Chosen> {
+        let among = among.filter(|&i| self.solvable.is_none_or(|solvable| solvable[i]));
+        let larger = |a: usize, b: usize| {
+            let is_larger = x[b].abs() > x[a].abs() || x[b].abs() == x[a].abs() && b < a;
+            if is_larger || x[a].is_nan() { b } else { a }
+        };
+        let largest = among.clone().reduce(larger)?;
+        let size = x[largest].abs();
+        if self.graded.is_some() {
+            let at = self.lightest(x, among, size)?;
+            return Some((at, x[at].abs()));
+        }
+        let least = if self.spares { PIVOT_CHOSEN } else { 1.0 } * size;
+        let candidates = among.filter(|&i| x[i].abs() >= least);
+        if let Some(at) = candidates.clone().find(|i| Some(*i) == wish) {
+            return Some((at, size));
+        }
+        let rarer = |a: (usize, usize), b: (usize, usize)| {
+            let [rows, other] = [a.1, b.1];
+            if other < rows || other == rows && larger(a.0, b.0) == b.0 {
+                b
+            } else {
+                a
+            }
+        };
+        let rarest = candidates.map(|i| (i, later(i))).reduce(rarer);
+        Some((rarest.map_or(largest, |(at, _)| at), size))
+    }
+
+    /// The coordinate with the largest c²/m among the large entries of graded masses.
+    fn lightest(
+        self,
+        x: &[f64],
+        among: impl Iterator<Item = usize>,
+        largest: f64,
+    ) -> Option<usize> {
+        let mass = self.graded?;
+        let candidates = among.filter(|&i| x[i].abs() >= CANDIDATE * largest);
+        // Compares c²/m without quotients: masses may be zero.
+        let lighter = |a: usize, b: usize| {
+            let [of_a, of_b] = [x[a] * x[a] * mass[b], x[b] * x[b] * mass[a]];
+            if of_b > of_a || of_b == of_a && b < a {
+                b
+            } else {
+                a
+            }
+        };
+        candidates.reduce(lighter)
+    }
+
+    /// Size of the largest entry that can be solved for, if the one of this coordinate is still as
+    /// good as the best one, except for the share [`PIVOT_REPEATED`].
+    pub(super) fn largest(
+        self,
+        x: &[f64],
+        at: usize,
+        others: impl Iterator<Item = usize> + Clone,
+    ) -> Option<f64> {
+        let pivot = x[at].abs();
+        let larger = |m: f64, i: usize| if x[i].abs() > m { x[i].abs() } else { m };
+        let Some(mass) = self.graded else {
+            let largest = match self.solvable {
+                None => others.fold(pivot, larger),
+                Some(solvable) => others.filter(|&i| solvable[i]).fold(pivot, larger),
+            };
+            // False for NaN, too.
+            let share = if self.spares {
+                PIVOT_REPEATED
+            } else {
+                LARGEST_REPEATED
+            };
+            return (pivot >= share * largest).then_some(largest);
+        };
+        let others = others.filter(|&i| self.solvable.is_none_or(|solvable| solvable[i]));
+        let all = others.chain([at]);
+        let largest = all.clone().fold(0.0, larger);
+        let best = self.lightest(x, all, largest)?;
+        let share = LARGEST_REPEATED * x[best];
+        let is_light = x[at] * x[at] * mass[best] >= share * share * mass[at];
+        // Compared with others, a row solved for a light coordinate has its own pivot.
+        (pivot >= CANDIDATE * largest && is_light).then_some(pivot)
+    }
+}
