@@ -8,7 +8,7 @@ use crate::bodies::Bodies;
 use crate::case::{Case, Kind, Motion};
 use crate::derivative::{Curve, Differences, Differentiate, DualNumbers};
 use crate::failure::{Claim, Failure, Oracle, Property, fact};
-use crate::number::KernelNumber;
+use crate::kernels::KernelNumber;
 use crate::state::Along;
 use crate::subject::{By, Derivative, Subject};
 

@@ -6,52 +6,17 @@ mod identities;
 use std::collections::BTreeSet;
 
 use joints::spec::{ConstraintSpec, Row, Spec};
-use joints::{Argument, ArgumentError, Constraint, Definition, Derivatives, Element};
+use joints::{Argument, ArgumentError, Constraint, Definition, Element};
 
 use crate::block::Block;
 use crate::bodies::Bodies;
 use crate::check::{Check, entry};
 use crate::failure::{DUAL_TOLERANCE, Failure, Property, fact};
-use crate::number::{Dual, KernelNumber};
+use crate::kernels::{AnyConstraint, KernelNumber};
 use crate::pattern::Pattern;
 use crate::state::{Along, State};
 use crate::subject::{By, Derivative, Subject, dense, sparse};
 use identities::phi_at_start;
-
-/// A constraint of any definition.
-pub(crate) trait AnyConstraint<S: Bodies> {
-    /// Its kernels for plain numbers, with further derivatives.
-    fn plain(&self) -> &dyn Derivatives<f64, S>;
-
-    /// Its kernels for dual numbers.
-    fn dual(&self) -> &dyn Element<Dual, S>;
-
-    /// The same with these numbers in place of its own; see [`Definition::set_data`].
-    fn with_data(&self, numbers: &[f64]) -> Box<dyn AnyConstraint<S>>;
-
-    /// The definition of it.
-    fn definition(&mut self) -> &mut dyn Definition<S>;
-}
-
-impl<K: Constraint<S>, S: Bodies> AnyConstraint<S> for K {
-    fn plain(&self) -> &dyn Derivatives<f64, S> {
-        self
-    }
-
-    fn dual(&self) -> &dyn Element<Dual, S> {
-        self.element()
-    }
-
-    fn with_data(&self, numbers: &[f64]) -> Box<dyn AnyConstraint<S>> {
-        let mut other = self.clone();
-        other.set_data(numbers);
-        Box::new(other)
-    }
-
-    fn definition(&mut self) -> &mut dyn Definition<S> {
-        self
-    }
-}
 
 /// A definition of constraints as a subject of the harness.
 pub(crate) struct OfConstraint<S: Bodies> {

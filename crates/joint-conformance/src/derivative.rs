@@ -4,7 +4,8 @@
 use num_dual::Dual2_64;
 
 use crate::block::Block;
-use crate::number::{Dual, KernelNumber};
+use crate::kernels::KernelNumber;
+use crate::number::Dual;
 
 /// A block that depends on one number τ; its derivatives are wanted at τ = 0.
 pub(crate) trait Curve {

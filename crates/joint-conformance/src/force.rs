@@ -8,43 +8,11 @@ use crate::bodies::Bodies;
 use crate::case::Motion;
 use crate::check::{Check, is_internal};
 use crate::failure::{Claim, Failure, Oracle, Property, fact};
-use crate::number::{Dual, KernelNumber, Number, Traced};
+use crate::kernels::{AnyForce, KernelNumber};
+use crate::number::{Number, Traced};
 use crate::pattern::Pattern;
 use crate::state::{Along, State};
 use crate::subject::{By, Derivative, Subject, sparse};
-
-/// A force of any definition.
-pub(crate) trait AnyForce<S: Bodies> {
-    /// Its kernels for plain numbers.
-    fn plain(&self) -> &dyn ForceElement<f64, S>;
-
-    /// Its kernels for dual numbers.
-    fn dual(&self) -> &dyn ForceElement<Dual, S>;
-
-    /// Its kernels for numbers that tell where it has no value.
-    fn traced(&self) -> &dyn ForceElement<Traced, S>;
-
-    /// The definition of it.
-    fn definition(&mut self) -> &mut dyn Definition<S>;
-}
-
-impl<K: Force<S>, S: Bodies> AnyForce<S> for K {
-    fn plain(&self) -> &dyn ForceElement<f64, S> {
-        self
-    }
-
-    fn dual(&self) -> &dyn ForceElement<Dual, S> {
-        self.element()
-    }
-
-    fn traced(&self) -> &dyn ForceElement<Traced, S> {
-        self.element()
-    }
-
-    fn definition(&mut self) -> &mut dyn Definition<S> {
-        self
-    }
-}
 
 /// A definition of forces as a subject of the harness.
 pub(crate) struct OfForce<S: Bodies> {

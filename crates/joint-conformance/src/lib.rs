@@ -32,6 +32,7 @@ mod constraint;
 mod derivative;
 mod failure;
 mod force;
+mod kernels;
 mod number;
 mod pattern;
 mod state;

@@ -3,26 +3,13 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use joints::{Element, ForceElement, Real};
+use joints::Real;
 use num_dual::{Dual2_64, DualNum};
-
-use crate::bodies::Bodies;
-use crate::constraint::AnyConstraint;
-use crate::force::AnyForce;
 
 /// A number that poses can be made of: cosine and sine come from the number itself.
 pub trait Number: Real {
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
-}
-
-/// A number type in which all kernels are compiled.
-pub(crate) trait KernelNumber: Number {
-    /// The kernels of a constraint for it.
-    fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S>;
-
-    /// The kernels of a force for it.
-    fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S>;
 }
 
 impl Number for f64 {
@@ -31,30 +18,10 @@ impl Number for f64 {
     }
 }
 
-impl KernelNumber for f64 {
-    fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S> {
-        constraint.plain()
-    }
-
-    fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S> {
-        force.plain()
-    }
-}
-
 /// A dual number of `num-dual` as a number of kernels, with its first and second derivative: one
 /// type for both, as each type compiles all kernels once more.
 #[derive(Clone, Copy)]
 pub(crate) struct Dual(pub(crate) Dual2_64);
-
-impl KernelNumber for Dual {
-    fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S> {
-        constraint.dual()
-    }
-
-    fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S> {
-        force.dual()
-    }
-}
 
 impl Number for Dual {
     fn sin_cos(self) -> (Self, Self) {

@@ -7,7 +7,7 @@ use crate::block::Block;
 use crate::bodies::Bodies;
 use crate::check::Check;
 use crate::failure::{Failure, Property};
-use crate::number::KernelNumber;
+use crate::kernels::KernelNumber;
 use crate::pattern::Pattern;
 use crate::state::State;
 

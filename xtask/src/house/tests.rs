@@ -3,10 +3,11 @@
 use super::circles::circles;
 use super::constants::{Constant, constants};
 use super::modules::Modules;
-use super::source::{Crate, Group, Kind, Source, folders_in, group, kind, submodules};
+use super::source::{Crate, Group, Kind, Source, crates, folders_in, group, kind, submodules};
 use super::table::{Table, json, plain};
 use super::types::large;
-use super::{Count, Counted, DYNAMICS_MOST, limits};
+use super::{CIRCLE_MOST, Count, Counted, DYNAMICS_MOST, limits};
+use crate::tree::root;
 
 fn house(files: &[(&str, &str)]) -> Crate {
     let read = |(path, text): &(&str, &str)| Source::new((*path).to_owned(), kind(path), text);
@@ -276,4 +277,16 @@ fn numeric_constants_are_listed_with_value_and_line() {
         test: test.into(),
     });
     assert_eq!(constants(&house(&[("src/lib.rs", text)])), expected);
+}
+
+/// What two modules need is in a module below both.
+#[test]
+fn no_more_than_two_modules_of_this_house_reach_each_other() {
+    let crates = crates(&root()).expect("sources");
+    assert!(crates.len() > 20, "{}", crates.len());
+    for home in &crates {
+        let found = circles(&Modules::of(home), CIRCLE_MOST);
+        let uses: Vec<_> = found.iter().flat_map(|circle| &circle.uses).collect();
+        assert!(uses.is_empty(), "{}: {uses:#?}", home.name);
+    }
 }

@@ -1,0 +1,103 @@
+//! Constraints and forces of any definition, with their kernels in each number type of the harness.
+
+use joints::{Constraint, Definition, Derivatives, Element, Force, ForceElement};
+
+use crate::bodies::Bodies;
+use crate::number::{Dual, Number, Traced};
+
+/// A constraint of any definition.
+pub(crate) trait AnyConstraint<S: Bodies> {
+    /// Its kernels for plain numbers, with further derivatives.
+    fn plain(&self) -> &dyn Derivatives<f64, S>;
+
+    /// Its kernels for dual numbers.
+    fn dual(&self) -> &dyn Element<Dual, S>;
+
+    /// The same with these numbers in place of its own; see [`Definition::set_data`].
+    fn with_data(&self, numbers: &[f64]) -> Box<dyn AnyConstraint<S>>;
+
+    /// The definition of it.
+    fn definition(&mut self) -> &mut dyn Definition<S>;
+}
+
+impl<K: Constraint<S>, S: Bodies> AnyConstraint<S> for K {
+    fn plain(&self) -> &dyn Derivatives<f64, S> {
+        self
+    }
+
+    fn dual(&self) -> &dyn Element<Dual, S> {
+        self.element()
+    }
+
+    fn with_data(&self, numbers: &[f64]) -> Box<dyn AnyConstraint<S>> {
+        let mut other = self.clone();
+        other.set_data(numbers);
+        Box::new(other)
+    }
+
+    fn definition(&mut self) -> &mut dyn Definition<S> {
+        self
+    }
+}
+
+/// A force of any definition.
+pub(crate) trait AnyForce<S: Bodies> {
+    /// Its kernels for plain numbers.
+    fn plain(&self) -> &dyn ForceElement<f64, S>;
+
+    /// Its kernels for dual numbers.
+    fn dual(&self) -> &dyn ForceElement<Dual, S>;
+
+    /// Its kernels for numbers that tell where it has no value.
+    fn traced(&self) -> &dyn ForceElement<Traced, S>;
+
+    /// The definition of it.
+    fn definition(&mut self) -> &mut dyn Definition<S>;
+}
+
+impl<K: Force<S>, S: Bodies> AnyForce<S> for K {
+    fn plain(&self) -> &dyn ForceElement<f64, S> {
+        self
+    }
+
+    fn dual(&self) -> &dyn ForceElement<Dual, S> {
+        self.element()
+    }
+
+    fn traced(&self) -> &dyn ForceElement<Traced, S> {
+        self.element()
+    }
+
+    fn definition(&mut self) -> &mut dyn Definition<S> {
+        self
+    }
+}
+
+/// A number type in which all kernels are compiled.
+pub(crate) trait KernelNumber: Number {
+    /// The kernels of a constraint for it.
+    fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S>;
+
+    /// The kernels of a force for it.
+    fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S>;
+}
+
+impl KernelNumber for f64 {
+    fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S> {
+        constraint.plain()
+    }
+
+    fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S> {
+        force.plain()
+    }
+}
+
+impl KernelNumber for Dual {
+    fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S> {
+        constraint.dual()
+    }
+
+    fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S> {
+        force.dual()
+    }
+}
