@@ -119,26 +119,11 @@ impl<T: Copy> Block<T> {
     /// If the shapes differ.
     #[must_use]
     pub(crate) fn zip(&self, other: &Self, f: impl Fn(T, T) -> T) -> Self {
-        assert_eq!(
-            (self.rows, self.columns),
-            (other.rows, other.columns),
-            "blocks entry by entry need equal shapes"
-        );
-        let entries = self
-            .entries
-            .iter()
-            .zip(&other.entries)
-            .map(|(&a, &b)| f(a, b))
-            .collect();
-        Self {
-            rows: self.rows,
-            columns: self.columns,
-            entries,
-        }
+        let mut combined = self.clone();
+        combined.update(other, f);
+        combined
     }
-}
 
-impl<T: Copy> Block<T> {
     /// Combines each entry with that of a block of the same shape, in place.
     ///
     /// # Panics

@@ -19,6 +19,7 @@ use crate::subject::{By, Derivative, Subject, dense, sparse};
 use identities::phi_at_start;
 
 /// A definition of constraints as a subject of the harness.
+#[derive(Clone, Copy)]
 pub(crate) struct OfConstraint<S: Bodies> {
     spec: &'static ConstraintSpec,
     make: Make<S>,
@@ -43,14 +44,6 @@ impl<S: Bodies> OfConstraint<S> {
             .collect()
     }
 }
-
-impl<S: Bodies> Clone for OfConstraint<S> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Bodies> Copy for OfConstraint<S> {}
 
 /// Kernels of a constraint, and what is made of them.
 #[derive(Clone, Copy)]

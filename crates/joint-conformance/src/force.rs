@@ -15,6 +15,7 @@ use crate::state::{Along, State};
 use crate::subject::{By, Derivative, Subject, sparse};
 
 /// A definition of forces as a subject of the harness.
+#[derive(Clone, Copy)]
 pub(crate) struct OfForce<S: Bodies> {
     spec: &'static ForceSpec,
     make: Make<S>,
@@ -35,14 +36,6 @@ impl<S: Bodies> OfForce<S> {
         self.spec.q.iter().map(|&row| [row, 0]).collect()
     }
 }
-
-impl<S: Bodies> Clone for OfForce<S> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S: Bodies> Copy for OfForce<S> {}
 
 /// Kernels of a force.
 #[derive(Clone, Copy)]

@@ -24,6 +24,11 @@
 //! or more slots and without a line of the ground (balance of constraints: on position level, since
 //! velocities are against the ground). A joint against the ground takes the ground as a slot.
 
+use std::collections::BTreeMap;
+use std::num::NonZero;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
 mod block;
 mod bodies;
 mod case;
@@ -41,11 +46,6 @@ mod subject;
 pub use bodies::Bodies;
 pub use case::{AWKWARD_CASES, Kind, ORDINARY_CASES};
 pub use failure::{DIFFERENCE_TOLERANCE, DUAL_TOLERANCE, Failure, Property, Reference};
-
-use std::collections::BTreeMap;
-use std::num::NonZero;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 use check::check;
 use constraint::OfConstraint;
