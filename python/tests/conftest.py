@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -31,6 +32,10 @@ joint = [
 ]
 simulate = { t_end = 2.0 }
 """
+
+# What begins in the background of a shell ignores interrupts, and so would its children: the tests
+# that interrupt would wait for ever.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def _binary() -> Path | None:
