@@ -6,19 +6,32 @@ or `PFAFF_COMMAND` names it, answers are compared with its answers.
 
 from __future__ import annotations
 
+import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 from build import HERE, interpreter, run
+
+
+def checked(*command: str) -> subprocess.CompletedProcess[str]:
+    """What a module of the environment says of the package."""
+    words = [str(interpreter()), "-m", *command]
+    return subprocess.run(words, cwd=HERE, check=False, capture_output=True, text=True)
 
 
 def main() -> None:
     """The command line."""
     if not interpreter().exists():
         sys.exit("there is no environment: run build.py first")
-    run(interpreter(), "-m", "pytest", *sys.argv[1:])
-    run(interpreter(), "-m", "mypy")
-    config = HERE / "pyproject.toml"
-    run(interpreter(), "-m", "mypy.stubtest", "pfaff", "--mypy-config-file", config)
+    config = str(HERE / "pyproject.toml")
+    checks = [("mypy",), ("mypy.stubtest", "pfaff", "--mypy-config-file", config)]
+    # Types are checked while tests wait for workers of a cluster.
+    with ThreadPoolExecutor(1) as pool:
+        found = [pool.submit(checked, *check) for check in checks]
+        run(interpreter(), "-m", "pytest", *sys.argv[1:])
+    for check, result in zip(checks, [future.result() for future in found], strict=True):
+        print("+", *check, "\n" + result.stdout + result.stderr, flush=True)
+    sys.exit(max(future.result().returncode for future in found))
 
 
 if __name__ == "__main__":
