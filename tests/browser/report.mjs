@@ -23,7 +23,7 @@ const CROWD_LOAD = 5000;
 const CROWD_RATE = 12;
 
 /** Browsers at a time. */
-const BROWSERS = 3;
+const BROWSERS = 4;
 
 const wait = (ms) => new Promise((done) => {
   setTimeout(done, ms);

@@ -114,14 +114,22 @@ pub(crate) fn check(program: Program) -> Result<String, String> {
         fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
         scenes.push((name, path.display().to_string()));
     }
+    let mut begun = Vec::new();
     for (name, scene) in scenes {
         let folder = out.join(name);
         let mut simulate = Command::new(&pfaff);
         simulate
             .current_dir(&root)
             .args(["simulate", &scene, "--out"]);
-        run(simulate.arg(&folder).stdout(Stdio::null()))?;
+        let child = simulate.arg(&folder).stdout(Stdio::null()).spawn();
+        begun.push((name, child.map_err(|e| format!("{pfaff}: {e}"))?));
         node.arg(format!("{name}={}", folder.join("report.html").display()));
+    }
+    for (name, mut child) in begun {
+        let ended = child.wait().map_err(|e| format!("{name}: {e}"))?;
+        if !ended.success() {
+            return Err(format!("the run of `{name}` failed: {ended}"));
+        }
     }
     run(&mut node)?;
     Ok(format!("pictures in {}", out.join("pictures").display()))

@@ -13,22 +13,36 @@ pub(crate) const PLATFORMS: [(&str, &str); 4] = [
     ("aarch64-apple-darwin", "macOS"),
 ];
 
-/// The targets that are type-checked: each system, and each processor. What is compiled for macOS
-/// on x86-64 is either for macOS or for this processor; nothing asks for both.
-const CHECKED: [&str; 3] = [
+/// Systems that are checked when the crates of others change, each with one processor. What is
+/// compiled for macOS on x86-64 is either for macOS or for this processor; nothing asks for both.
+const ALL: [&str; 3] = [
     "x86_64-unknown-linux-gnu",
     "x86_64-pc-windows-gnu",
     "aarch64-apple-darwin",
 ];
 
-/// Type-checks the command for the other systems, if their standard libraries are there or can be
-/// installed; the others are skipped by name. All in one command: it waits for one crate of a
-/// system with crates of another.
+/// Stands for every system but Linux at each change: sources of this workspace tell Linux from
+/// others and nothing else, so only crates of others can differ between these.
+const OTHER: [&str; 1] = ["x86_64-pc-windows-gnu"];
+
+/// Type-checks the command for a system that is not Linux.
 pub(crate) fn check() -> Result<String, String> {
+    check_for(&OTHER)
+}
+
+/// Type-checks it for all systems.
+pub(crate) fn check_all() -> Result<String, String> {
+    check_for(&ALL)
+}
+
+/// Type-checks the command for those of other systems than this one whose standard libraries are
+/// there or can be installed; the others are skipped by name. All in one command: it waits for one
+/// crate of a system with crates of another.
+fn check_for(targets: &[&str]) -> Result<String, String> {
     let own = said_by(Command::new("rustc").args(["--print", "host-tuple"]))?;
     let mut lines = Vec::new();
     let mut arguments = vec!["check", "--locked", "-p", "pfaff-cli"];
-    for target in CHECKED.into_iter().filter(|&target| target != own.trim()) {
+    for &target in targets.iter().filter(|&&target| target != own.trim()) {
         match install(target) {
             Ok(()) => {
                 arguments.extend(["--target", target]);
@@ -58,4 +72,76 @@ fn install(target: &str) -> Result<(), String> {
             last.unwrap_or_default().trim()
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::{Path, PathBuf};
+
+    use super::*;
+
+    fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+        for entry in std::fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                sources(&path, found);
+            } else if path.extension().is_some_and(|e| e == "rs") {
+                found.push(path);
+            }
+        }
+    }
+
+    /// Conditions on systems in a source that `OTHER` does not stand for. Of `cfg!` both sides are
+    /// compiled everywhere.
+    fn other_conditions(text: &str) -> Vec<&str> {
+        let is_linux = |line: &str| {
+            line.matches("target_os").count() == line.matches("target_os = \"linux\"").count()
+        };
+        let names = [
+            "target_family",
+            "target_vendor",
+            "target_env",
+            "unix",
+            "windows",
+        ];
+        let named = |line: &str| names.iter().any(|name| line.contains(name)) || !is_linux(line);
+        text.lines()
+            .filter(|line| (line.contains("cfg(") || line.contains("cfg_attr(")) && named(line))
+            .collect()
+    }
+
+    #[test]
+    fn sources_tell_linux_from_others_and_nothing_else() {
+        let mut found = Vec::new();
+        for member in std::fs::read_dir(root().join("crates")).expect("crates") {
+            let folder = member.expect("a crate").path().join("src");
+            if folder.is_dir() {
+                sources(&folder, &mut found);
+            }
+        }
+        assert!(found.len() > 500, "{} files", found.len());
+        for path in found {
+            let text = std::fs::read_to_string(&path).expect("a source");
+            let conditions = other_conditions(&text);
+            assert!(
+                conditions.is_empty(),
+                "{}: {conditions:?}: check that system at each change, in `OTHER`",
+                path.display()
+            );
+        }
+    }
+
+    #[test]
+    fn a_condition_on_another_system_is_seen() {
+        let linux =
+            "if cfg!(unix) {\n#[cfg(target_os = \"linux\")]\n#[cfg(not(target_os = \"linux\"))]\n";
+        assert!(other_conditions(linux).is_empty());
+        for condition in [
+            "#[cfg(unix)]",
+            "#[cfg(target_os = \"macos\")]",
+            "#[cfg(all(test, windows))]",
+        ] {
+            assert_eq!(other_conditions(condition), [condition]);
+        }
+    }
 }
