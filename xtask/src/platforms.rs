@@ -22,7 +22,7 @@ const ALL: [&str; 3] = [
 ];
 
 /// Stands for every system but Linux at each change: sources of this workspace tell Linux from
-/// others and nothing else, so only crates of others can differ between these.
+/// others and nothing else, which a test of `house` holds, so only crates of others can differ.
 const OTHER: [&str; 1] = ["x86_64-pc-windows-gnu"];
 
 /// Type-checks the command for a system that is not Linux.
@@ -72,76 +72,4 @@ fn install(target: &str) -> Result<(), String> {
             last.unwrap_or_default().trim()
         )
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use std::path::{Path, PathBuf};
-
-    use super::*;
-
-    fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
-        for entry in std::fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                sources(&path, found);
-            } else if path.extension().is_some_and(|e| e == "rs") {
-                found.push(path);
-            }
-        }
-    }
-
-    /// Conditions on systems in a source that `OTHER` does not stand for. Of `cfg!` both sides are
-    /// compiled everywhere.
-    fn other_conditions(text: &str) -> Vec<&str> {
-        let is_linux = |line: &str| {
-            line.matches("target_os").count() == line.matches("target_os = \"linux\"").count()
-        };
-        let names = [
-            "target_family",
-            "target_vendor",
-            "target_env",
-            "unix",
-            "windows",
-        ];
-        let named = |line: &str| names.iter().any(|name| line.contains(name)) || !is_linux(line);
-        text.lines()
-            .filter(|line| (line.contains("cfg(") || line.contains("cfg_attr(")) && named(line))
-            .collect()
-    }
-
-    #[test]
-    fn sources_tell_linux_from_others_and_nothing_else() {
-        let mut found = Vec::new();
-        for member in std::fs::read_dir(root().join("crates")).expect("crates") {
-            let folder = member.expect("a crate").path().join("src");
-            if folder.is_dir() {
-                sources(&folder, &mut found);
-            }
-        }
-        assert!(found.len() > 500, "{} files", found.len());
-        for path in found {
-            let text = std::fs::read_to_string(&path).expect("a source");
-            let conditions = other_conditions(&text);
-            assert!(
-                conditions.is_empty(),
-                "{}: {conditions:?}: check that system at each change, in `OTHER`",
-                path.display()
-            );
-        }
-    }
-
-    #[test]
-    fn a_condition_on_another_system_is_seen() {
-        let linux =
-            "if cfg!(unix) {\n#[cfg(target_os = \"linux\")]\n#[cfg(not(target_os = \"linux\"))]\n";
-        assert!(other_conditions(linux).is_empty());
-        for condition in [
-            "#[cfg(unix)]",
-            "#[cfg(target_os = \"macos\")]",
-            "#[cfg(all(test, windows))]",
-        ] {
-            assert_eq!(other_conditions(condition), [condition]);
-        }
-    }
 }

@@ -1,5 +1,7 @@
 //! Small crates of a few modules, with the expected results.
 
+use proc_macro2::{TokenStream, TokenTree};
+
 use super::circles::circles;
 use super::constants::{Constant, constants};
 use super::modules::Modules;
@@ -289,4 +291,64 @@ fn no_more_than_two_modules_of_this_house_reach_each_other() {
         let uses: Vec<_> = found.iter().flat_map(|circle| &circle.uses).collect();
         assert!(uses.is_empty(), "{}: {uses:#?}", home.name);
     }
+}
+
+/// Conditions under which parts are compiled on some systems, but for Linux and all others. Of
+/// `cfg!` both sides are compiled everywhere.
+fn conditions_on_systems(tokens: &TokenStream) -> Vec<String> {
+    let tokens: Vec<TokenTree> = tokens.clone().into_iter().collect();
+    let mut found = Vec::new();
+    for (k, token) in tokens.iter().enumerate() {
+        let TokenTree::Group(group) = token else {
+            continue;
+        };
+        let before = k.checked_sub(1).map(|before| tokens[before].to_string());
+        if matches!(before.as_deref(), Some("cfg" | "cfg_attr")) {
+            let words = group.stream().to_string();
+            let known = words.replace("target_os = \"linux\"", "");
+            let systems = [
+                "unix",
+                "windows",
+                "target_os",
+                "target_family",
+                "target_vendor",
+            ];
+            if systems.iter().any(|system| known.contains(system)) {
+                found.push(words);
+            }
+        }
+        found.extend(conditions_on_systems(&group.stream()));
+    }
+    found
+}
+
+/// So one other system stands for all of them in [`crate::platforms`].
+#[test]
+fn sources_tell_linux_from_others_and_nothing_else() {
+    for home in crates(&root()).expect("sources") {
+        for file in home.files.iter().filter(|file| file.kind == Kind::Code) {
+            let found = conditions_on_systems(&file.tokens);
+            assert!(found.is_empty(), "{}/{}: {found:?}", home.folder, file.path);
+        }
+    }
+}
+
+#[test]
+fn a_condition_on_another_system_is_seen() {
+    let of = |text: &str| {
+        let source = Source::new("src/lib.rs".to_owned(), Kind::Code, text);
+        conditions_on_systems(&source.expect("tokens").tokens)
+    };
+    let linux = "#[cfg(target_os = \"linux\")] fn a() { #[cfg(not(target_os = \"linux\"))] b(); }";
+    assert!(of(linux).is_empty());
+    assert!(of("fn a() { if cfg!(unix) {} }").is_empty());
+    assert_eq!(of("fn a() { #[cfg(unix)] b(); }"), ["unix"]);
+    assert_eq!(
+        of("#[cfg(all(test,\n windows))] mod a;"),
+        ["all (test , windows)"]
+    );
+    assert_eq!(
+        of("#[cfg(target_os = \"macos\")] mod a;"),
+        ["target_os = \"macos\""]
+    );
 }
