@@ -20,6 +20,8 @@ pub(crate) struct Recorded {
     pub(crate) reactions: Vec<f64>,
     pub(crate) columns: Vec<Column>,
     pub(crate) reaction_columns: Vec<Column>,
+    /// Their names in `reactions.csv`.
+    pub(crate) reaction_names: Vec<String>,
     pub(crate) document: String,
     /// Why it stopped before its end.
     pub(crate) stopped: Option<Refusal>,
@@ -43,6 +45,8 @@ pub(crate) struct Run {
     #[pyo3(get)]
     reaction_columns: Vec<Column>,
     #[pyo3(get)]
+    reaction_names: Vec<String>,
+    #[pyo3(get)]
     document: String,
     stopped: Option<Refusal>,
 }
@@ -58,6 +62,7 @@ impl Run {
             t: recorded.t.into_pyarray(py).unbind(),
             columns: recorded.columns,
             reaction_columns: recorded.reaction_columns,
+            reaction_names: recorded.reaction_names,
             document: recorded.document,
             stopped: recorded.stopped,
         }

@@ -12,7 +12,7 @@ use pfaff::model::{Mechanism, Registry, System, Tolerance};
 use pfaff::refusal::{Refusal, json};
 use pfaff::report::documents::{EventDocument, LinearisationDocument};
 use pfaff::report::{
-    AnalysisDocument, Column as ReportColumn, Origin, OutputDirectory, Trajectory, reaction_columns,
+    AnalysisDocument, Column as ReportColumn, Origin, OutputDirectory, ReactionColumn, Trajectory,
 };
 use pfaff::scene::{KeyError, Template};
 use pfaff::study::EndedRun;
@@ -189,23 +189,17 @@ impl Scene {
             ..Recorded::default()
         };
         let space = mechanism.space();
-        let groups = mechanism.layout().groups.len();
-        let columns: Vec<_> = (0..groups)
-            .map(|k| reaction_columns(mechanism, k))
-            .collect();
-        rows.reaction_columns = columns.iter().flatten().map(column).collect();
         let stop = || hearing.ends();
-        let ended = study.show(&motion, &options.wanted(), &stop, |sample, reactions| {
+        let ended = study.show(&motion, &options.wanted(), &stop, |sample, numbers| {
             rows.t.push(sample.t);
             rows.q.extend(sample.q);
             rows.v.extend(sample.v);
             trajectory.extend(&mut rows.trajectory, sample.t, sample.q, sample.v);
-            for (reaction, columns) in reactions.iter().zip(&columns) {
+            for reaction in numbers.reactions.as_chosen() {
                 rows.reactions.extend(reaction.components(space));
-                if columns.len() > space.components().len() {
-                    rows.reactions.push(reaction.component.unwrap_or(f64::NAN));
-                }
+                rows.reactions.extend(reaction.component);
             }
+            rows.reactions.extend(numbers.groups.as_chosen());
             for event in sample.events {
                 if let Some(on_event) = on_event {
                     let document = plain(&EventDocument::from(event)).unwrap_or_default();
@@ -224,28 +218,21 @@ impl Scene {
         let EndedRun {
             document,
             stopped,
-            verdicts,
+            stretches,
+            columns,
             ..
         } = match ended {
             // The exception of Python tells more.
             Err(StudyError::Interrupted) => return Ok(rows),
             other => other.map_err(|e| self.fault(e))?,
         };
-        if !numbers_of_choice {
-            let determined = verdicts
-                .iter()
-                .zip(&columns)
-                .flat_map(|(verdict, columns)| {
-                    columns
-                        .iter()
-                        .map(|column| verdict.determines(column.number))
-                });
-            let determined: Vec<bool> = determined.collect();
-            for row in rows.reactions.chunks_mut(determined.len().max(1)) {
-                let unknown = row
-                    .iter_mut()
-                    .zip(&determined)
-                    .filter(|(_, known)| !**known);
+        rows.reaction_columns = columns.iter().map(|c| column(&c.column)).collect();
+        rows.reaction_names = columns.iter().map(ReactionColumn::name).collect();
+        if let Some(stretches) = stretches.filter(|_| !numbers_of_choice) {
+            let each = rows.reactions.chunks_mut(columns.len().max(1));
+            for (t, row) in rows.t.iter().zip(each) {
+                let numbers = row.iter_mut().zip(&columns);
+                let unknown = numbers.filter(|(_, c)| !c.quantity.is_determined(&stretches, *t));
                 unknown.for_each(|(number, _)| *number = f64::NAN);
             }
         }
@@ -423,8 +410,8 @@ impl Scene {
         })
     }
 
-    /// Runs the scene. With `numbers_of_choice` reactions that are not unique have the numbers of
-    /// the rows that the run keeps, otherwise NaN. `drives` are functions of time, measure and rate
+    /// Runs the scene. With `numbers_of_choice` numbers that are not determined on their stretch of
+    /// the run are those of the rows that the run keeps, otherwise NaN. `drives` are functions of time, measure and rate
     /// in place of laws, `forces` functions of the states of bodies, each with its name.
     #[pyo3(signature = (options, numbers_of_choice, on_event, on_row, drives, forces))]
     #[allow(clippy::too_many_arguments)]

@@ -31,7 +31,7 @@ fn run(study: &Study, options: &MotionOptions) -> (Vec<Row>, Summary) {
             t: sample.t,
             q: sample.q.to_vec(),
             v: sample.v.to_vec(),
-            reactions: sample.reactions()?,
+            reactions: sample.reactions()?.as_chosen().to_vec(),
         });
         Ok(ControlFlow::Continue(()))
     });

@@ -338,7 +338,7 @@ fn run_without(d: &Description, rows: &[usize], t: f64) -> (State, Vec<Reaction>
     };
     simulate(&p, &options, |sample| {
         last = (sample.t, sample.q.to_vec(), sample.v.to_vec());
-        reactions = sample.reactions()?;
+        reactions = sample.reactions()?.as_chosen().to_vec();
         Ok(ControlFlow::Continue(()))
     })
     .expect("moves");

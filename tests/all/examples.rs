@@ -96,7 +96,7 @@ impl Run {
                 t: sample.t,
                 q: sample.q.to_vec(),
                 v: sample.v.to_vec(),
-                reactions: sample.reactions()?,
+                reactions: sample.reactions()?.as_chosen().to_vec(),
             });
             Ok(ControlFlow::Continue(()))
         });

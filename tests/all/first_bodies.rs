@@ -42,7 +42,10 @@ fn run(study: &Study) -> [Row; 2] {
     };
     study
         .run(&options, |sample| {
-            let (a, reactions) = (sample.acceleration()?, sample.reactions()?);
+            let (a, reactions) = (
+                sample.acceleration()?,
+                sample.reactions()?.as_chosen().to_vec(),
+            );
             rows.push(Row {
                 q: sample.q.to_vec(),
                 a,

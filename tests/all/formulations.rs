@@ -64,7 +64,7 @@ impl Run {
             run.t.push(sample.t);
             run.q.push(sample.q.to_vec());
             run.v.push(sample.v.to_vec());
-            let reactions = sample.reactions()?.into_iter();
+            let reactions = sample.reactions()?.as_chosen().to_vec().into_iter();
             let parts = reactions.map(|r| [r.force[0], r.force[1], r.torque[2]]);
             run.reactions.push(parts.collect());
             Ok(ControlFlow::Continue(()))

@@ -40,7 +40,7 @@ fn trolley() -> Prepared {
 fn run(p: &Prepared, options: &MotionOptions) -> (Vec<Vec<f64>>, Summary) {
     let mut rows = Vec::new();
     let summary = simulate(p, options, |row| {
-        let lambda = row.multipliers()?;
+        let lambda = row.multipliers()?.as_chosen().to_vec();
         rows.push([row.q, row.v, &lambda].concat());
         Ok(ControlFlow::Continue(()))
     })

@@ -338,7 +338,13 @@ fn all_ways_lead_along_one_motion() {
         let mut y = Vec::new();
         let summary = simulate(p, &options, |row| {
             let [q, v] = [row.q.to_vec(), row.v.to_vec()];
-            y = [q, v, row.acceleration()?, row.multipliers()?].concat();
+            y = [
+                q,
+                v,
+                row.acceleration()?,
+                row.multipliers()?.as_chosen().to_vec(),
+            ]
+            .concat();
             Ok(ControlFlow::Continue(()))
         })
         .expect("a motion");

@@ -44,7 +44,10 @@ fn prepared(rows: &RowChoice) -> Prepared {
 fn run(prepared: &Prepared, options: &MotionOptions) -> (Vec<Row>, dynamics::Summary) {
     let mut rows = Vec::new();
     let summary = simulate(prepared, options, |sample| {
-        let (a, reactions) = (sample.acceleration()?, sample.reactions()?);
+        let (a, reactions) = (
+            sample.acceleration()?,
+            sample.reactions()?.as_chosen().to_vec(),
+        );
         rows.push(Row {
             t: sample.t,
             q: sample.q.to_vec(),

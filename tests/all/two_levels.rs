@@ -161,7 +161,7 @@ fn a_disc_rolls_down_a_slope() {
         let run = study.run(&options, |sample| {
             rows += 1;
             let travelled = 0.5 * down * sample.t * sample.t;
-            for (k, reaction) in sample.reactions()?.iter().enumerate() {
+            for (k, reaction) in sample.reactions()?.as_chosen().iter().enumerate() {
                 let q = &sample.q[3 * k..];
                 let up_slope = q[0] * cos + q[1] * sin;
                 close(up_slope, 3.0 * k as f64 - travelled, "way");

@@ -48,6 +48,15 @@ pub enum EventKind {
 }
 
 impl EventKind {
+    /// Whether another stretch of verdicts begins with it.
+    #[must_use]
+    pub fn cuts(self) -> bool {
+        match self {
+            Self::RowsExchanged | Self::SingularPassage | Self::Impulse => true,
+            Self::CodeLeft | Self::CodeUsed => false,
+        }
+    }
+
     /// Its name in output files.
     #[must_use]
     pub fn name(self) -> &'static str {

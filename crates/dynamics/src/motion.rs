@@ -4,6 +4,7 @@
 //! and polished point on, which does not change the motion.
 
 use model::{Mechanism, Scratch, System};
+use solvability::Chosen;
 
 use crate::code::SceneCode;
 use crate::counts::{Counted, note};
@@ -230,6 +231,18 @@ impl<'m> KeptRowMotion<'m> {
     /// # Errors
     /// As [`KeptRowMotion::acceleration`].
     pub fn multipliers(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        lambda: &mut Chosen<f64>,
+    ) -> Result<(), MotionFault> {
+        lambda.choose(self.equations.without_multiplier());
+        self.write_multipliers(t, q, v, lambda.to_be_written())
+    }
+
+    /// As [`Self::multipliers`], as plain numbers.
+    pub(crate) fn write_multipliers(
         &mut self,
         t: f64,
         q: &[f64],

@@ -18,6 +18,7 @@ use crate::code::NoCode;
 use crate::error::MotionError;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
+use solvability::Group;
 
 pub use component::ComponentPlan;
 pub use decided::{Decided, Line};
@@ -26,14 +27,17 @@ pub use saving::{Cost, Saving};
 pub use sizes::Sizes;
 
 /// The requested output of a motion. Other values are not computed.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Wanted {
     /// Which rows of output are requested.
     pub rows: Rows,
     /// Whether accelerations are requested at these rows.
     pub accelerations: bool,
-    /// Joints and drives whose reactions are requested at these rows.
+    /// Joints and drives whose reactions are requested at these rows. With reactions come the
+    /// verdicts of the run.
     pub reactions: Reactions,
+    /// Groups whose verdicts are requested besides.
+    pub groups: Vec<Group>,
 }
 
 impl Default for Wanted {
@@ -43,6 +47,7 @@ impl Default for Wanted {
             rows: Rows::Every,
             accelerations: true,
             reactions: Reactions::All,
+            groups: Vec::new(),
         }
     }
 }
@@ -109,6 +114,8 @@ pub struct Plan<'a> {
     pub rows: Decided<Rows>,
     /// Whether accelerations are computed at these rows.
     pub accelerations: Decided<bool>,
+    /// Groups whose verdicts are computed; none without reactions.
+    pub groups: Vec<Group>,
     /// Its components, or the whole mechanism as the only one.
     pub components: Vec<ComponentPlan<'a>>,
 }
@@ -148,6 +155,10 @@ impl<'a> Plan<'a> {
             code,
             rows: rows(options, wanted.rows),
             accelerations: accelerations(wanted.accelerations),
+            groups: match wanted.reactions {
+                Reactions::None => Vec::new(),
+                _ => wanted.groups.clone(),
+            },
             components,
         })
     }

@@ -20,6 +20,7 @@ mod span;
 mod summary;
 #[cfg(test)]
 mod tests;
+mod verdicts;
 
 use crate::code::SceneCode;
 use crate::error::MotionFault;
@@ -33,7 +34,7 @@ pub use caller::{Stop, Watch};
 pub use reduced::Reduced;
 pub(crate) use reduced::derivatives;
 pub use sample::Sample;
-pub use summary::{ComponentSummary, Failure, Summary};
+pub use summary::{ComponentSummary, DroppedRows, Failure, Summary};
 
 /// Runs a prepared mechanism from t = 0 and passes rows at 0, at every output step and at the end
 /// to `row`: a plan with all output.

@@ -167,12 +167,12 @@ fn reactions(d: &EquilibriumDocument) -> Vec<Vec<String>> {
     let largest = values.fold(0.0, |a: f64, (_, x)| a.max(x.abs()));
     let each = d.reactions.0.iter().map(|(name, reaction)| {
         let values = reaction.values.0.iter();
-        let values = values.map(|(name, x)| format!("{name} = {}", short(*x, largest)));
-        let verdict = reaction.verdict.verdict.verdict;
-        let verdict = match &reaction.verdict.choice {
-            Some(choice) => format!("{} ({choice})", verdict.replace('_', " ")),
-            None => verdict.replace('_', " "),
-        };
+        // What is not determined has no number.
+        let values = values.map(|(name, x)| match x.is_nan() {
+            true => format!("{name} = –"),
+            false => format!("{name} = {}", short(*x, largest)),
+        });
+        let verdict = reaction.verdict.verdict().replace('_', " ");
         vec![name.clone(), values.collect::<Vec<_>>().join(", "), verdict]
     });
     std::iter::once(header.to_vec()).chain(each).collect()

@@ -179,6 +179,7 @@ fn page(study: &Study, found: &Linearisation, mode: &Mode, number: usize) -> Str
         analysis: None,
         hints: &[],
         shows: Shows::Mode(&told),
+        stretches: None,
         recording: &recording,
         comparisons: &[],
         drives: &[],

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use pfaff::model::words::{listed, rounded};
-use pfaff::report::documents::{EndedDocument, MisfitDocument};
+use pfaff::report::documents::{EndedDocument, MisfitDocument, RunReactionDocument};
 use pfaff::study::FILES;
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -179,24 +179,65 @@ fn describe(name: &str, d: &RunDocument, t_end: f64) -> String {
             listed(&fragile),
         ));
     }
-    let mut choices: Vec<(String, Vec<&str>)> = Vec::new();
-    for (name, r) in &d.reactions.0 {
-        let Some(choice) = r.choice.as_ref().map(ToString::to_string) else {
-            continue;
-        };
-        match choices.iter_mut().find(|(c, _)| *c == choice) {
-            Some((_, names)) => names.push(name),
-            None => choices.push((choice, vec![name])),
-        }
-    }
-    for (choice, names) in choices {
+    text.push_str(&open_reactions(d));
+    text
+}
+
+/// What the model does not determine, and where its numbers are.
+fn open_reactions(d: &RunDocument) -> String {
+    let of = |word: &str| -> Vec<&str> {
+        let reactions = d.reactions.0.iter();
+        let is = |r: &RunReactionDocument| r.of_run.as_ref().is_some_and(|v| v.verdict == word);
+        let those = reactions.filter(|(_, r)| is(r));
+        those.map(|(name, _)| name.as_str()).collect()
+    };
+    let mut text = String::new();
+    let undecided = of("undecided");
+    if !undecided.is_empty() {
         text.push_str(&format!(
-            "not determined by the model: {}. Their columns in reactions.csv belong to one choice ({choice}), not to the \
-             mechanism.\n",
-            listed(&names),
+            "undecided: {}; summary.json gives the reasons.\n",
+            listed(&undecided)
+        ));
+    }
+    let open = of("not_unique");
+    let Some(choice) = d.choice.first().filter(|_| !open.is_empty()) else {
+        return text;
+    };
+    let more = match d.choice.len() {
+        0 | 1 => "",
+        _ => " at first; summary.json has the others",
+    };
+    text.push_str(&format!(
+        "not determined by the model: {}. In reactions.csv only what is determined has numbers; choice.csv has one solution of many ({choice}{more}).\n",
+        listed(&open),
+    ));
+    let some: Vec<String> = open
+        .iter()
+        .filter_map(|name| partly(name, d.reactions.get(name)?))
+        .collect();
+    if !some.is_empty() {
+        text.push_str(&format!(
+            "determined on parts of the run: {}.\n",
+            some.join("; ")
         ));
     }
     text
+}
+
+/// The components of a reaction that are determined on parts of the run.
+fn partly(name: &str, reaction: &RunReactionDocument) -> Option<String> {
+    let components = reaction.components.0.iter();
+    let some = components.filter(|(_, c)| !c.of_run.determined.is_empty());
+    let some: Vec<String> = some
+        .map(|(component, c)| {
+            let on = c.of_run.determined.iter();
+            let on: Vec<String> = on
+                .map(|[from, to]| format!("{} … {} s", rounded(*from), rounded(*to)))
+                .collect();
+            format!("{name}.{component} on {}", on.join(", "))
+        })
+        .collect();
+    (!some.is_empty()).then(|| some.join(", "))
 }
 
 /// The paths of the results, and the file to open first.

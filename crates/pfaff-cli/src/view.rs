@@ -107,6 +107,7 @@ fn page(start: &Start) -> String {
         analysis: Some(&start.document),
         hints: &[],
         shows: Shows::Start,
+        stretches: None,
         recording: &recording,
         comparisons: &[],
         drives: &[],

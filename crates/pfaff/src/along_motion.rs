@@ -259,6 +259,7 @@ impl Study {
             },
             accelerations: !many,
             reactions: Reactions::None,
+            groups: Vec::new(),
         };
         let options = MotionOptions {
             t_end,

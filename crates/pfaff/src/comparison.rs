@@ -17,7 +17,7 @@ use model::{Mechanism, Part, RowRanges, Scratch, SpaceKind, System};
 use rank::{RankDecision, deletions, dependencies};
 use report::{ComparedChoice, Comparison, Frame, Freedom, Recording};
 use solvability::parts::parts;
-use solvability::{Configuration, NormWeights, ReactionVerdict, Verdict, decide};
+use solvability::{Configuration, NormWeights, decide};
 
 /// Largest number of rows of a set whose choices are compared.
 const ROWS_MAX: usize = 150;
@@ -45,18 +45,14 @@ const PLANE: f64 = 1e-9;
 pub(crate) fn compare(
     mechanism: &Mechanism,
     recording: &Recording,
-    verdicts: &[ReactionVerdict],
-    choice: impl Fn(usize) -> Option<String>,
+    open: impl Fn(usize) -> bool,
+    choice: Option<String>,
 ) -> (Vec<Comparison>, Vec<String>) {
-    let open = |k: usize| {
-        verdicts
-            .get(k)
-            .is_some_and(|r| r.wrench.verdict == Verdict::NotUnique)
-    };
     let Some(first) = recording.frames.first() else {
         return (Vec::new(), Vec::new());
     };
-    if first.multipliers.is_empty() || !verdicts.iter().any(|r| open(r.id.0)) {
+    let groups = 0..mechanism.layout().groups.len();
+    if first.multipliers.is_empty() || !groups.into_iter().any(&open) {
         return (Vec::new(), Vec::new());
     }
     let mut s = mechanism.scratch();
@@ -82,9 +78,12 @@ pub(crate) fn compare(
             left_out.push(names());
             continue;
         }
-        let own = choice(reactions[0]).unwrap_or_else(|| "this run".to_owned());
+        let own = match &choice {
+            Some(choice) => format!("this run: {choice}"),
+            None => "this run".to_owned(),
+        };
         match Set::new(&part, recording) {
-            Some(set) => compared.push(set.compare(recording, &format!("this run: {own}"), open)),
+            Some(set) => compared.push(set.compare(recording, &own, &open)),
             None => left_out.push(names()),
         }
     }

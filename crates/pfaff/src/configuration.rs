@@ -2,7 +2,7 @@
 //! result; nothing else is computed.
 
 mod document;
-mod requests;
+pub(crate) mod requests;
 
 use std::sync::Arc;
 

@@ -14,6 +14,7 @@
 //! | [`configuration`] | one configuration, and the results for its reactions |
 //! | [`along_motion`] | the verdicts along its motion |
 //! | [`difference`] | comparison of two scenes |
+//! | [`mod@rows`] | what takes the rows of a run: one value for each file or array |
 //! | [`mod@sweep`] | many runs with different numbers |
 //! | [`mod@tolerance`] | many mechanisms with data within their tolerances |
 //! | [`mod@work_precision`] | error against run time |
@@ -34,11 +35,13 @@ pub mod prelude;
 #[cfg(feature = "messages")]
 pub mod refusal;
 mod report_builder;
+pub mod rows;
 #[cfg(feature = "messages")]
 pub mod source;
 mod spread;
 pub mod study;
 pub mod sweep;
+mod tables_of_run;
 pub mod tolerance;
 pub mod work_precision;
 

@@ -2,9 +2,11 @@
 //! afterwards. Data that the scene does not request are not computed; the page shows the available
 //! ones.
 
+use std::ops::ControlFlow;
+
 use dynamics::plan::Rows;
-use dynamics::{MotionFault, MotionOptions, Plan, Prepared, Sample};
-use model::{Mechanism, Reaction, System};
+use dynamics::{MotionOptions, Plan, Prepared, Sample};
+use model::{Mechanism, System};
 use rank::Limits;
 use report::documents::MakeUniqueDocument;
 use report::{
@@ -12,15 +14,26 @@ use report::{
     WrittenScene, numbers_per_row, run_page,
 };
 use scene::{Scene, Units, WithUnit};
-use solvability::{Allowed, Sensitivities, Verdict};
+use solvability::{Allowed, Sensitivities, Stretches, Verdict};
 
 use crate::comparison::compare;
 use crate::configuration::ConfigurationAnalysis;
+use crate::rows::{RowFault, RowSink};
 
 /// Number of non-unique reactions for which the page says what would make them unique, and number
 /// of sets tried for each.
 const HINTS: usize = 8;
 const HINT_TRIALS: usize = 2_000;
+
+/// What a page tells of a run.
+#[derive(Clone, Copy)]
+pub(crate) struct OfRun<'a> {
+    pub(crate) start: &'a ConfigurationAnalysis<'a>,
+    pub(crate) sensitivities: &'a Sensitivities,
+    pub(crate) document: &'a RunDocument,
+    /// Its verdicts; `None` if no reactions were asked for.
+    pub(crate) stretches: Option<&'a Stretches>,
+}
 
 /// Rows of a run that are collected for its page.
 pub(crate) struct ReportBuilder<'a> {
@@ -28,8 +41,34 @@ pub(crate) struct ReportBuilder<'a> {
     prepared: &'a Prepared,
     options: &'a MotionOptions,
     recording: Recording,
+    /// Whether reactions are collected.
+    has_reactions: bool,
     compares: bool,
     ends_only: bool,
+}
+
+impl RowSink for ReportBuilder<'_> {
+    fn row(&mut self, sample: &mut Sample<'_, '_>) -> Result<ControlFlow<()>, RowFault> {
+        if !self.recording.wants(sample.t) {
+            return Ok(ControlFlow::Continue(()));
+        }
+        let (mut reactions, mut multipliers) = (Vec::new(), Vec::new());
+        if self.has_reactions {
+            reactions = sample.reactions()?.as_chosen().to_vec();
+        }
+        if self.compares && self.has_reactions {
+            multipliers = sample.multipliers()?.as_chosen().to_vec();
+        }
+        self.recording.frames.push(Frame {
+            t: sample.t,
+            q: sample.q.to_vec(),
+            v: sample.v.to_vec(),
+            work: sample.work,
+            reactions,
+            multipliers,
+        });
+        Ok(ControlFlow::Continue(()))
+    }
 }
 
 impl<'a> ReportBuilder<'a> {
@@ -51,60 +90,31 @@ impl<'a> ReportBuilder<'a> {
             options: asked,
             recording: Recording::new(options.t_end, rows, numbers_per_row(mechanism)),
             ends_only: plan.rows.value == Rows::Ends,
+            has_reactions: scene.output.reactions != scene::WantedReactions::None,
             compares: prepared.decision.redundancy > 0,
         }
-    }
-
-    /// Takes a row with its reactions, if any were computed.
-    pub(crate) fn take(
-        &mut self,
-        sample: &mut Sample<'_, '_>,
-        reactions: &[Reaction],
-    ) -> Result<(), MotionFault> {
-        if !self.recording.wants(sample.t) {
-            return Ok(());
-        }
-        let multipliers = if self.compares && !reactions.is_empty() {
-            sample.multipliers()?
-        } else {
-            Vec::new()
-        };
-        self.recording.frames.push(Frame {
-            t: sample.t,
-            q: sample.q.to_vec(),
-            v: sample.v.to_vec(),
-            work: sample.work,
-            reactions: reactions.to_vec(),
-            multipliers,
-        });
-        Ok(())
     }
 
     /// Builds the page.
     pub(crate) fn page(
         &self,
-        start: &ConfigurationAnalysis<'_>,
-        sensitivities: &Sensitivities,
-        run: &RunDocument,
+        of_run: &OfRun<'_>,
         origin: &Origin,
         work_precision: Option<&str>,
     ) -> String {
         let mechanism = &self.prepared.mechanism;
-        let choice = |k: usize| {
-            run.reactions
-                .0
-                .get(k)?
-                .1
-                .choice
-                .as_ref()
-                .map(ToString::to_string)
+        let OfRun {
+            start,
+            sensitivities,
+            document: run,
+            stretches,
+        } = *of_run;
+        let choice = run.choice.first().map(ToString::to_string);
+        let is_open = |k: usize| {
+            let own = run.reactions.0.get(k);
+            own.is_some_and(|(_, r)| r.verdict() == "not_unique")
         };
-        let (comparisons, mut left_out) = compare(
-            mechanism,
-            &self.recording,
-            &start.analysis.reactions,
-            choice,
-        );
+        let (comparisons, mut left_out) = compare(mechanism, &self.recording, is_open, choice);
         let (mut analysis, hints) = self.analysis(start);
         analysis.warnings.extend(self.scene.cautions());
         analysis.add_sensitivities(sensitivities, mechanism.layout());
@@ -120,6 +130,7 @@ impl<'a> ReportBuilder<'a> {
             analysis: Some(&analysis),
             hints: &hints,
             shows: Shows::Run(run),
+            stretches,
             recording: &self.recording,
             comparisons: &comparisons,
             drives: &self.drives(),

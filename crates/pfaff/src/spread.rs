@@ -5,24 +5,51 @@ use std::ops::ControlFlow;
 
 use dynamics::plan::Reactions;
 use dynamics::{MotionError, Plan, Prepared, RowChoice, Sample, Stop, Summary, Wanted};
+use report::Ending;
 use report::documents::SpreadDocument;
 
-/// Configurations of a run at its rows of output.
-#[derive(Default)]
-pub(crate) struct Path(Vec<Vec<f64>>);
+use crate::rows::{Ended, RowFault, RowSink};
+
+/// Configurations of a run at its rows of output, if rows of it may miss.
+pub(crate) struct Path {
+    may_miss: bool,
+    rows: Vec<Vec<f64>>,
+}
+
+impl RowSink for Path {
+    fn row(&mut self, sample: &mut Sample<'_, '_>) -> Result<ControlFlow<()>, RowFault> {
+        if self.may_miss {
+            self.rows.push(sample.q.to_vec());
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+}
 
 impl Path {
-    /// Takes a row, if rows of this run may miss.
-    pub(crate) fn take(&mut self, prepared: &Prepared, sample: &Sample<'_, '_>) {
-        if prepared.may_miss {
-            self.0.push(sample.q.to_vec());
+    pub(crate) fn new(prepared: &Prepared) -> Self {
+        Self {
+            may_miss: prepared.may_miss,
+            rows: Vec::new(),
+        }
+    }
+
+    /// The spread of a run that has reached its end.
+    pub(crate) fn spread_of(
+        &self,
+        plan: &Plan<'_>,
+        ended: &Ended,
+        stop: &Stop<'_>,
+    ) -> Option<SpreadDocument> {
+        match ended.ending() {
+            Ending::Complete => self.spread(plan, &ended.summary, stop),
+            _ => None,
         }
     }
 
     /// Compares these rows with those of a run on other rows: the run is repeated with each row
     /// that has missed kept instead of the one that takes the largest part in its dependency.
     /// Returns `None` if no row has missed, or no other rows can be dropped.
-    pub(crate) fn spread(
+    fn spread(
         &self,
         plan: &Plan<'_>,
         summary: &Summary,
@@ -58,10 +85,11 @@ impl Path {
             rows: plan.rows.value,
             accelerations: false,
             reactions: Reactions::None,
+            groups: Vec::new(),
         };
         let other_plan = Plan::new(other, plan.options(), &wanted)?;
         let space = other.mechanism.space();
-        let mut rows = self.0.iter();
+        let mut rows = self.rows.iter();
         let outcome = other_plan.simulate_watched(&|_| ControlFlow::Continue(()), stop, |sample| {
             let Some(q) = rows.next() else {
                 return Ok(ControlFlow::Break(()));

@@ -4,7 +4,6 @@
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use dynamics::equilibrium::{Equilibrium, EquilibriumOptions, equilibrium};
 use dynamics::linearise::{Linearisation, LineariseOptions, linearise};
@@ -13,20 +12,29 @@ use dynamics::{
     Failure, Method, MotionError, MotionFault, MotionOptions, Plan, Prepared, Sample,
     Stabilisation, Stop, Summary, Wanted, simulate_until,
 };
-use model::{AnyDescription, FramePose, Known, Reaction, Registry, StartPose, System};
-use report::documents::{DataDocument, MomentDocument, MotionDocument};
+use model::{
+    AnyDescription, ConstraintId, FramePose, Known, Reaction, Registry, StartPose, System,
+};
+use report::documents::{
+    DataDocument, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument,
+};
 use report::{
-    AnalysisDocument, Ending, Origin, OutputDirectory, ReactionTable, Run, RunDocument, Selection,
-    TableError, TrajectoryTable, write_json,
+    AnalysisDocument, Origin, OutputDirectory, Peak, ReactionColumn, Run, RunDocument, Selection,
+    TableError, TrajectoryTable, columns_of_reactions, write_json,
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
-use solvability::{Contradiction, ReactionVerdict, State, contradicting_drives_along};
+use solvability::{
+    Chosen, Contradiction, Freedoms, Group, GroupNumbers, ReactionVerdict, Sensitivities,
+    Sensitivity, State, Stretches, contradicting_drives_along,
+};
 
 use crate::assembled::{AssembledScene, refused};
-use crate::configuration::{AskedRows, ConfigurationAnalysis};
+use crate::configuration::{AskedRows, ConfigurationAnalysis, requests};
 use crate::error::StudyError;
-use crate::report_builder::ReportBuilder;
+use crate::report_builder::{OfRun, ReportBuilder};
+use crate::rows::{Calling, Ended, RowSink, run_into};
 use crate::spread::Path;
+use crate::tables_of_run::{ReactionFiles, TableRows, TrajectoryFile, group_numbers};
 
 /// Largest number of rows of a mechanism for which an animation has additional rows between those
 /// of the tables.
@@ -59,6 +67,20 @@ pub struct EndedRun {
     pub stopped: Option<MotionError>,
     /// Verdicts at the start, in the order of the rows of C.
     pub verdicts: Vec<ReactionVerdict>,
+    /// Verdicts of the run; `None` if no reactions were asked for.
+    pub stretches: Option<Stretches>,
+    /// The columns of reactions of all joints and drives, then those of the groups of the scene.
+    pub columns: Vec<ReactionColumn>,
+}
+
+/// The numbers of reactions of a row, all of one choice.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct ChosenNumbers {
+    /// Reactions of all joints and drives in the order of their rows.
+    pub reactions: Chosen<Reaction>,
+    /// All numbers of the groups of the scene, group by group.
+    pub groups: Chosen<f64>,
 }
 
 /// Options of the caller that replace those of the scene.
@@ -434,7 +456,13 @@ impl Study {
             return Ok(state);
         }
         let mut reached = false;
-        self.run_until(&self.motion_to(t), stop, |sample| {
+        let wanted = Wanted {
+            accelerations: false,
+            reactions: Reactions::None,
+            ..Wanted::default()
+        };
+        let plan = Plan::new(&self.prepared, &self.motion_to(t), &wanted)?;
+        plan.simulate_watched(&|_| ControlFlow::Continue(()), stop, |sample| {
             state.q.copy_from_slice(sample.q);
             state.v.copy_from_slice(sample.v);
             reached = sample.t >= t;
@@ -516,19 +544,19 @@ impl Study {
     pub fn motion(&self, options: &MotionOptions) -> Result<MotionDocument, StudyError> {
         let mechanism = &self.prepared.mechanism;
         let mut rows = Vec::new();
-        let ended = self.show(
-            options,
-            &Wanted::default(),
-            &|| false,
-            |sample, reactions| {
-                let (t, q, v) = (sample.t, sample.q, sample.v);
-                rows.push(MomentDocument::new(mechanism, t, q, v, reactions));
-                ControlFlow::Continue(())
-            },
-        )?;
-        match ended.stopped {
-            Some(error) => Err(error.into()),
-            None => Ok(MotionDocument::new(ended.document, rows)),
+        let ended = self.show(options, &Wanted::default(), &|| false, |sample, numbers| {
+            let (t, q, v) = (sample.t, sample.q, sample.v);
+            rows.push(MomentDocument::new(mechanism, t, q, v, &numbers.reactions));
+            ControlFlow::Continue(())
+        })?;
+        match (ended.stopped, &ended.stretches) {
+            (Some(error), _) => Err(error.into()),
+            (None, stretches) => Ok(MotionDocument::new(
+                ended.document,
+                rows,
+                mechanism,
+                stretches.as_ref(),
+            )),
         }
     }
 
@@ -563,59 +591,51 @@ impl Study {
         options: &MotionOptions,
         wanted: &Wanted,
         stop: &Stop<'_>,
-        mut row: impl FnMut(&Sample<'_, '_>, &[Reaction]) -> ControlFlow<()>,
+        mut row: impl FnMut(&Sample<'_, '_>, &ChosenNumbers) -> ControlFlow<()>,
     ) -> Result<EndedRun, StudyError> {
-        let plan = Plan::new(&self.prepared, options, wanted)?;
-        let start = self.analyse(0.0, None)?;
-        let freedoms = start.freedoms()?;
-        let sensitivities = start.sensitivities()?;
-        let (mut path, mut rows) = (Path::default(), 0);
-        let interrupted = AtomicBool::new(false);
-        let asked = || {
-            let is_asked = stop();
-            interrupted.fetch_or(is_asked, Ordering::Relaxed);
-            is_asked
-        };
-        let goes_on = |_| ControlFlow::Continue(());
-        let outcome = plan.simulate_watched(&goes_on, &asked, |sample| {
-            path.take(&self.prepared, sample);
-            let reactions = sample.reactions()?;
+        let begun = self.begun()?;
+        let plan = Plan::new(&self.prepared, options, &begun.wanted(wanted.clone()))?;
+        let (mut path, mut rows) = (Path::new(&self.prepared), 0);
+        let (mechanism, q) = (&self.prepared.mechanism, &self.prepared.q);
+        let mut groups = GroupNumbers::new(mechanism, q, &plan.groups);
+        let mut caller = Calling(|sample: &mut Sample<'_, '_>| {
+            let numbers = ChosenNumbers {
+                reactions: sample.reactions()?,
+                groups: group_numbers(&mut groups, sample)?,
+            };
             rows += 1;
-            let flow = row(sample, &reactions);
-            interrupted.fetch_or(flow.is_break(), Ordering::Relaxed);
-            Ok(flow)
+            Ok(row(sample, &numbers))
         });
-        let (summary, stopped) = match outcome {
-            Err(failure) if rows == 0 => return Err(failure.error.into()),
-            Ok(_) if rows == 0 => return Err(StudyError::Interrupted),
-            Ok(summary) => (summary, None),
-            Err(failure) => (failure.summary, Some(failure.error)),
-        };
-        let ending = match (&stopped, interrupted.load(Ordering::Relaxed)) {
-            (Some(error), _) => Ending::Stopped(error),
-            (None, true) => Ending::Interrupted,
-            (None, false) => Ending::Complete,
-        };
-        let spread = match ending {
-            Ending::Complete => path.spread(&plan, &summary, &asked),
-            _ => None,
-        };
-        let document = RunDocument::new(&Run {
-            plan: &plan,
-            reactions: &start.analysis.reactions,
-            sensitivities: &sensitivities,
-            data: DataDocument::new(&start.analysis),
-            freedoms: &freedoms,
-            summary: &summary,
-            spread: spread.as_ref(),
-            ending,
+        let goes_on = |_| ControlFlow::Continue(());
+        let sinks: &mut [&mut dyn RowSink] = &mut [&mut path, &mut caller];
+        let ended = run_into(&plan, (&goes_on, stop), &mut |_| goes_on(0.0), sinks)?;
+        let written = Written {
+            spread: path.spread_of(&plan, &ended, stop),
             rows,
-            files: &[],
-        });
+            ..Written::default()
+        };
         Ok(EndedRun {
-            document,
-            stopped,
-            verdicts: start.analysis.reactions.clone(),
+            document: begun.document(&plan, &ended, written),
+            verdicts: begun.start.analysis.reactions.clone(),
+            columns: begun.columns(&Selection::All)?,
+            stretches: ended.summary.verdicts,
+            stopped: ended.error,
+        })
+    }
+
+    /// The groups of the scene with their names.
+    fn groups(&self) -> Result<Vec<(String, Group)>, StudyError> {
+        requests::groups(&self.scene, &self.prepared.mechanism, &[])
+    }
+
+    /// What is known of a run before it begins.
+    fn begun(&self) -> Result<Begun<'_>, StudyError> {
+        let start = self.analyse(0.0, None)?;
+        Ok(Begun {
+            freedoms: start.freedoms()?,
+            sensitivities: start.sensitivities()?,
+            groups: self.groups()?,
+            start,
         })
     }
 
@@ -645,7 +665,11 @@ impl Study {
     ///   start.
     pub fn plan(&self) -> Result<Plan<'_>, StudyError> {
         let options = self.options.as_ref().ok_or(StudyError::NoEnd)?;
-        let wanted = wanted(&self.scene.output);
+        let groups = self.groups()?.into_iter().map(|(_, group)| group);
+        let wanted = Wanted {
+            groups: groups.collect(),
+            ..wanted(&self.scene.output)
+        };
         let options = MotionOptions {
             output_step: options.output_step / self.rows_between(&wanted) as f64,
             ..options.clone()
@@ -708,112 +732,69 @@ impl Study {
         let between = self.rows_between(&wanted(&self.scene.output));
         let mechanism = &self.prepared.mechanism;
         let output = &self.scene.output;
-        let start = self.analyse(0.0, None)?;
-        let freedoms = start.freedoms()?;
-        let sensitivities = start.sensitivities()?;
+        let begun = self.begun()?;
+        let table_rows = TableRows::new(between, t_end);
         let mut trajectory = if output.trajectory {
-            Some(TrajectoryTable::new(
-                directory.file("trajectory.csv")?,
-                mechanism,
-            )?)
+            let file = directory.file("trajectory.csv")?;
+            let table = TrajectoryTable::new(file, mechanism)?;
+            Some(TrajectoryFile::new(table, table_rows))
         } else {
             None
         };
         let mut reactions = match selection(&output.reactions) {
-            Some(selection) => Some(ReactionTable::new(
-                directory.file("reactions.csv")?,
-                mechanism,
-                &selection,
+            Some(selection) => Some(ReactionFiles::begin(
+                directory,
+                (mechanism, &self.prepared.q),
+                begun.columns(&selection)?,
+                &plan.groups,
+                table_rows,
+                self.prepared.decision.redundancy == 0,
             )?),
             None => None,
         };
         let asked = self.options.as_ref().ok_or(StudyError::NoEnd)?;
         let builder = || ReportBuilder::new(&self.scene, &self.prepared, asked, &plan);
         let mut report_builder = output.report.then(builder);
-        let interrupted = AtomicBool::new(false);
         let progress = Mutex::new(progress);
         let go_on = |t: f64| {
             // A lock is poisoned only by a panic, which continues in its own thread.
-            let flow = progress.lock().map_or(ControlFlow::Break(()), |mut p| p(t));
-            interrupted.fetch_or(flow.is_break(), Ordering::Relaxed);
-            flow
+            progress.lock().map_or(ControlFlow::Break(()), |mut p| p(t))
         };
         let watch = |t: f64| match plan.rows.value {
             Rows::Every | Rows::Interpolated => ControlFlow::Continue(()),
             Rows::Ends => go_on(t),
         };
-        let stop = || {
-            let is_requested = stop();
-            if is_requested {
-                interrupted.store(true, Ordering::Relaxed);
-            }
-            is_requested
-        };
-        let mut unwritten = None;
-        let mut path = Path::default();
-        let (mut rows, mut written_rows) = (0, 0);
-        let outcome = plan.simulate_watched(&watch, &stop, |sample| {
-            let in_tables = rows % between == 0 || sample.t >= t_end;
-            rows += 1;
-            written_rows += usize::from(in_tables);
-            path.take(&self.prepared, sample);
-            let written = write_row(
-                sample,
-                trajectory.as_mut().filter(|_| in_tables),
-                reactions.as_mut(),
-                in_tables,
-                report_builder.as_mut(),
-            )?;
-            let flow = go_on(sample.t);
-            unwritten = written.err();
-            Ok(if unwritten.is_some() {
-                ControlFlow::Break(())
-            } else {
-                flow
-            })
+        let mut path = Path::new(&self.prepared);
+        let mut counted = TableRows::new(between, t_end);
+        let mut written_rows = 0;
+        let mut counter = Calling(|sample: &mut Sample<'_, '_>| {
+            written_rows += usize::from(counted.take(sample.t));
+            Ok(ControlFlow::Continue(()))
         });
-        let (summary, error) = match outcome {
-            // Files of an earlier run are not replaced if there is no row.
-            Ok(_) if rows == 0 => return Err(StudyError::Interrupted),
-            Err(failure) if rows == 0 => return Err(failure.error.into()),
-            Ok(summary) => (summary, None),
-            Err(failure) => (failure.summary, Some(failure.error)),
-        };
-        let ending = match (&error, interrupted.load(Ordering::Relaxed)) {
-            (Some(error), _) => Ending::Stopped(error),
-            (None, true) => Ending::Interrupted,
-            (None, false) => Ending::Complete,
-        };
-        let spread = match ending {
-            Ending::Complete => path.spread(&plan, &summary, &stop),
-            _ => None,
-        };
-        let files = files_of(output);
-        let run = Run {
-            plan: &plan,
-            reactions: &start.analysis.reactions,
-            sensitivities: &sensitivities,
-            data: DataDocument::new(&start.analysis),
-            freedoms: &freedoms,
-            summary: &summary,
-            spread: spread.as_ref(),
-            ending,
-            rows: written_rows,
-            files: &files,
-        };
-        let document = RunDocument::new(&run);
-        let whole = matches!(ending, Ending::Complete) && unwritten.is_none();
-        for file in [
-            trajectory.map(TrajectoryTable::finish),
-            reactions.map(ReactionTable::finish),
-        ] {
-            // If a table cannot be written, the summary of an earlier run stays with its tables.
-            match file {
-                Some(file) if whole => drop(file?.finish()?),
-                Some(file) => drop(file?.finish_partial()?),
-                None => {}
-            }
+        let mut sinks: Vec<&mut dyn RowSink> = vec![&mut path, &mut counter];
+        sinks.extend(trajectory.as_mut().map(|sink| sink as &mut dyn RowSink));
+        sinks.extend(reactions.as_mut().map(|sink| sink as &mut dyn RowSink));
+        sinks.extend(report_builder.as_mut().map(|sink| sink as &mut dyn RowSink));
+        let ended = run_into(&plan, (&watch, stop), &mut |t| go_on(t), &mut sinks)?;
+        for sink in &mut sinks {
+            sink.end(ended.summary.verdicts.as_ref(), &ended.ending())?;
         }
+        drop(sinks);
+        let has_choice = reactions.as_ref().is_some_and(|files| files.has_choice);
+        let files = files_of(output, has_choice);
+        let none = (&[][..], &[][..]);
+        let (columns, peaks) = reactions.as_ref().map_or(none, ReactionFiles::peaks);
+        let document = begun.document(
+            &plan,
+            &ended,
+            Written {
+                spread: path.spread_of(&plan, &ended, stop),
+                rows: written_rows,
+                files: &files,
+                columns,
+                peaks,
+            },
+        );
         let mut text = Vec::new();
         write_json(&mut text, &document).map_err(|source| TableError::Write {
             table: "summary.json",
@@ -825,11 +806,16 @@ impl Study {
         directory.remove_stale(&stale.copied().collect::<Vec<_>>())?;
         if let Some(report_builder) = report_builder {
             let figure = comparison_beside(directory);
-            let page =
-                report_builder.page(&start, &sensitivities, &document, origin, figure.as_deref());
+            let of_run = OfRun {
+                start: &begun.start,
+                sensitivities: &begun.sensitivities,
+                document: &document,
+                stretches: ended.summary.verdicts.as_ref(),
+            };
+            let page = report_builder.page(&of_run, origin, figure.as_deref());
             directory.write("report.html", page.as_bytes())?;
         }
-        match (unwritten, error) {
+        match (ended.unwritten, ended.error) {
             (Some(e), _) => Err(e.into()),
             (None, Some(error)) => Err(StudyError::Stopped {
                 error,
@@ -840,18 +826,92 @@ impl Study {
     }
 }
 
+/// What is known of a run before it begins.
+struct Begun<'s> {
+    start: ConfigurationAnalysis<'s>,
+    freedoms: Freedoms,
+    sensitivities: Sensitivities,
+    /// The groups of the scene, with their names.
+    groups: Vec<(String, Group)>,
+}
+
+/// What was written of a run.
+#[derive(Default)]
+struct Written<'w> {
+    spread: Option<SpreadDocument>,
+    rows: usize,
+    files: &'w [&'static str],
+    columns: &'w [ReactionColumn],
+    peaks: &'w [Option<Peak>],
+}
+
+impl Begun<'_> {
+    /// The requested output with the groups of the scene.
+    fn wanted(&self, wanted: Wanted) -> Wanted {
+        let groups = self.groups.iter().map(|(_, group)| group.clone());
+        Wanted {
+            groups: groups.collect(),
+            ..wanted
+        }
+    }
+
+    /// The columns of reactions.
+    fn columns(&self, selection: &Selection) -> Result<Vec<ReactionColumn>, TableError> {
+        let mechanism = self.start.mechanism;
+        columns_of_reactions(mechanism, selection, &self.groups, |id, name| {
+            self.is_fragile(id, name)
+        })
+    }
+
+    /// Whether a component is unique at the start, but determined by the last digits of the data.
+    fn is_fragile(&self, id: ConstraintId, component: &str) -> bool {
+        let own = self.sensitivities.each.get(id.0).and_then(Option::as_ref);
+        own.is_some_and(Sensitivity::is_fragile)
+            && self.start.analysis.reactions[id.0].determines(component)
+    }
+
+    fn document(&self, plan: &Plan<'_>, ended: &Ended, written: Written<'_>) -> RunDocument {
+        let verdicts = ended.summary.verdicts.as_ref();
+        RunDocument::new(&Run {
+            plan,
+            reactions: &self.start.analysis.reactions,
+            sensitivities: &self.sensitivities,
+            data: DataDocument::new(&self.start.analysis),
+            freedoms: &self.freedoms,
+            verdicts: verdicts.map(|stretches| RunVerdicts {
+                stretches,
+                groups: &self.groups,
+                columns: written.columns,
+                peaks: written.peaks,
+            }),
+            summary: &ended.summary,
+            spread: written.spread.as_ref(),
+            ending: ended.ending(),
+            rows: written.rows,
+            files: written.files,
+        })
+    }
+}
+
 /// Files that a run writes if its scene wants all of them.
-pub const FILES: [&str; 4] = [
+pub const FILES: [&str; 5] = [
     "trajectory.csv",
     "reactions.csv",
+    "choice.csv",
     "summary.json",
     "report.html",
 ];
 
 /// The files of a run with this output.
-fn files_of(output: &Output) -> Vec<&'static str> {
+fn files_of(output: &Output, has_choice: bool) -> Vec<&'static str> {
     let reactions = !matches!(output.reactions, WantedReactions::None);
-    let wanted = [output.trajectory, reactions, true, output.report];
+    let wanted = [
+        output.trajectory,
+        reactions,
+        has_choice,
+        true,
+        output.report,
+    ];
     let wanted = FILES.into_iter().zip(wanted);
     wanted.filter_map(|(name, is)| is.then_some(name)).collect()
 }
@@ -872,32 +932,8 @@ fn wanted(output: &Output) -> Wanted {
         // No table contains accelerations.
         accelerations: false,
         reactions,
+        groups: Vec::new(),
     }
-}
-
-fn write_row(
-    sample: &mut Sample<'_, '_>,
-    trajectory: Option<&mut TrajectoryTable<'_, report::OutputFile>>,
-    reactions: Option<&mut ReactionTable<report::OutputFile>>,
-    in_tables: bool,
-    report_builder: Option<&mut ReportBuilder<'_>>,
-) -> Result<Result<(), TableError>, MotionFault> {
-    if let Some(table) = trajectory
-        && let Err(e) = table.row(sample.t, sample.q, sample.v)
-    {
-        return Ok(Err(e));
-    }
-    let mut known = Vec::new();
-    if let Some(table) = reactions {
-        known = sample.reactions()?;
-        if in_tables && let Err(e) = table.row(sample.t, &known) {
-            return Ok(Err(e));
-        }
-    }
-    if let Some(report_builder) = report_builder {
-        report_builder.take(sample, &known)?;
-    }
-    Ok(Ok(()))
 }
 
 /// The figure of a comparison of methods in the same directory, if there is one and it is not too

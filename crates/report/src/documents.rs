@@ -15,6 +15,7 @@ mod sensitivity;
 #[cfg(test)]
 mod tests;
 mod tolerance;
+mod verdicts;
 
 use std::io::{self, Write};
 
@@ -45,10 +46,7 @@ pub use linearise::{
 pub use misfits::{MisfitDocument, SpreadDocument};
 pub use motion::{MomentDocument, MotionDocument};
 pub use plan::{DecisionDocument, PlanDocument, PlannedComponentDocument, SavingDocument};
-pub use run::{
-    ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Run, RunDocument,
-    RunReactionDocument,
-};
+pub use run::{ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Run, RunDocument};
 pub use sensitivity::SensitivityDocument;
 pub use tolerance::{
     DescribedDocument, DrawnDocument, FailureDocument, HistogramDocument, MarkerRangeDocument,
@@ -56,9 +54,13 @@ pub use tolerance::{
     ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
     distance,
 };
+pub use verdicts::{
+    PeakDocument, RunGroupDocument, RunNumberDocument, RunReactionDocument, RunVerdicts,
+    SpecialDocument, TrackDocument,
+};
 
 /// Number of the format of documents: it grows when an entry changes its meaning or disappears.
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 2;
 
 /// A document with its head.
 #[derive(Serialize)]

@@ -20,6 +20,7 @@ pub mod figures;
 pub mod files;
 pub mod html;
 pub mod page;
+pub mod peaks;
 mod recording;
 pub mod sweep;
 pub mod tables;
@@ -33,11 +34,13 @@ pub use html::{
     ComparedChoice, Comparison, DriveCurve, Freedom, Origin, RunPage, Shows, WrittenScene,
     numbers_per_row, run_page,
 };
+pub use peaks::{Peak, PeakRecorder};
 pub use recording::{Frame, Recording};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
 pub use tables::{
-    Column, MatrixTable, ReactionTable, Selection, TableError, Trajectory, TrajectoryTable,
-    modes_table, reaction_columns, tolerance_table,
+    Column, MatrixTable, Quantity, ReactionColumn, ReactionTable, Selection, TableError,
+    Trajectory, TrajectoryTable, columns_of_reactions, modes_table, reaction_columns,
+    tolerance_table, write_determined,
 };
 pub use tolerance::tolerance_page;
 pub use work_precision::{

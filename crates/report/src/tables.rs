@@ -16,7 +16,10 @@ use std::io::{self, BufWriter, Write};
 use serde::Serialize;
 
 pub use linearise::{MatrixTable, modes_table};
-pub use reactions::{ReactionTable, Selection, reaction_columns};
+pub use reactions::{
+    Quantity, ReactionColumn, ReactionTable, Selection, columns_of_reactions, reaction_columns,
+    write_determined,
+};
 pub use tolerance::tolerance_table;
 pub use trajectory::{Column, Trajectory, TrajectoryTable};
 
@@ -96,6 +99,23 @@ impl<W: Write> Table<W> {
         let mut text = zmij::Buffer::new();
         for &value in values {
             self.line.extend_from_slice(text.format(value).as_bytes());
+            self.line.push(b',');
+        }
+        if let Some(last) = self.line.last_mut() {
+            *last = b'\n';
+        }
+        let written = self.out.write_all(&self.line);
+        self.checked(written)
+    }
+
+    /// Writes a row of numbers; one that does not exist is an empty cell.
+    fn row_with_gaps(&mut self, values: &[f64]) -> Result<(), TableError> {
+        self.line.clear();
+        let mut text = zmij::Buffer::new();
+        for &value in values {
+            if !value.is_nan() {
+                self.line.extend_from_slice(text.format(value).as_bytes());
+            }
             self.line.push(b',');
         }
         if let Some(last) = self.line.last_mut() {

@@ -3,7 +3,8 @@
 use joints::space3::{Axes, Revolute};
 use model::{BodyRef, Marker, Mechanism, Reaction, SpaceKind, SpatialBody, SpatialDescription};
 use report::figures::{Marking, mechanism};
-use report::{ReactionTable, Selection, TrajectoryTable};
+use report::{ReactionTable, Selection, TrajectoryTable, columns_of_reactions};
+use solvability::Chosen;
 
 /// A four-bar in a vertical plane that is turned by `turn` about the vertical axis y.
 fn four_bar(turn: f64) -> SpatialDescription {
@@ -158,10 +159,15 @@ fn tables_have_the_columns_of_space() {
         assert!((a - b).abs() < 1e-14, "{k}: {a} {b}");
     }
 
-    let mut table = ReactionTable::new(Vec::new(), &built, &Selection::All).expect("writes");
+    let columns = columns_of_reactions(&built, &Selection::All, &[], |_, _| false);
+    let columns = columns.expect("all of them");
+    let mut table = ReactionTable::new("choice.csv", Vec::new(), &built, columns).expect("writes");
     let reaction = Reaction::new(SpaceKind::Space3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], None);
-    table.row(0.0, &[reaction]).expect("writes");
-    let text = String::from_utf8(table.finish().expect("writes")).expect("UTF-8");
+    let none = Chosen::new(Vec::new(), Vec::new());
+    table
+        .row(0.0, &Chosen::new(vec![reaction], Vec::new()), &none)
+        .expect("writes");
+    let text = String::from_utf8(table.finish().expect("writes").0).expect("UTF-8");
     assert_eq!(
         text,
         "t,A.Fx,A.Fy,A.Fz,A.Tx,A.Ty,A.Tz\n0.0,1.0,2.0,3.0,4.0,5.0,6.0\n"

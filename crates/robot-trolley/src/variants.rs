@@ -91,7 +91,7 @@ fn run_study(
     let mut rows = Vec::new();
     let summary = study
         .run(&options, |sample| {
-            let reactions = sample.reactions()?;
+            let reactions = sample.reactions()?.as_chosen().to_vec();
             rows.push(Instant {
                 t: sample.t,
                 q: sample.q.to_vec(),

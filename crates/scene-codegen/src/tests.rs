@@ -4,6 +4,7 @@
 use dynamics::KeptRowMotion;
 use linalg::KeptRowSaddle;
 use model::System;
+use pfaff::solvability::Chosen;
 use pfaff::{AssembledScene, Overrides, Study};
 use symbolic::Symbol;
 
@@ -153,12 +154,13 @@ fn compare(name: &str, text: &str, n: usize) -> (usize, f64) {
         let differences = a.iter().zip(&expected).map(|(a, e)| (a - e).abs() / size);
         let apart = differences.fold(0.0, f64::max);
         let (lambda, _) = run(&functions, &subject, "multipliers", &state, none);
-        let mut expected = vec![0.0; layout.rows()];
+        let mut expected = Chosen::new(vec![0.0; layout.rows()], Vec::new());
         motion.multipliers(t, q, v, &mut expected).expect("solves");
-        let size = largest(&expected).max(largest(mechanism.mass()) * size);
+        let expected = expected.as_chosen();
+        let size = largest(expected).max(largest(mechanism.mass()) * size);
         let differences = lambda
             .iter()
-            .zip(&expected)
+            .zip(expected)
             .map(|(a, e)| (a - e).abs() / size);
         let apart = differences.fold(apart, f64::max);
         worst = worst.max(apart);

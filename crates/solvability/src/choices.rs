@@ -2,6 +2,7 @@
 //! reaction: every number that is not unique is given with the choice on which it depends, and
 //! cannot be read without that label.
 
+mod chosen;
 mod equations;
 mod error;
 mod minimise;
@@ -12,6 +13,7 @@ use crate::pose::dimensionless;
 use model::ConstraintId;
 use rank::{KeptRowsError, RankStatus};
 
+pub use chosen::Chosen;
 pub(crate) use equations::solution_under;
 pub use equations::{Equations, Solution, solution};
 pub use error::ChoiceError;

@@ -3,6 +3,7 @@
 use model::codes::Code;
 use rank::{KeptRowsError, RankError};
 
+use crate::groups::RequestError;
 use crate::limits::ROWS_MAX;
 use crate::matrices::QueryError;
 use crate::state::StateError;
@@ -52,6 +53,14 @@ pub enum AnalysisError {
         /// Cause.
         source: QueryError,
     },
+    /// A group has no numbers.
+    #[error("at t = {time} s: {source}")]
+    Group {
+        /// Time (s).
+        time: f64,
+        /// Cause.
+        source: Box<RequestError>,
+    },
     /// The rows that were to be dropped cannot be dropped.
     #[error("at t = {time} s these rows cannot be dropped: {source}")]
     Rows {
@@ -69,6 +78,7 @@ impl AnalysisError {
         match self {
             Self::State(e) => e.code(),
             Self::Rank { .. } | Self::Query { .. } => const { Code::new(302) },
+            Self::Group { source, .. } => source.code(),
             Self::Large { .. } => const { Code::new(303) },
             Self::Chosen { .. } => const { Code::new(304) },
             Self::Rows { .. } => const { Code::new(310) },

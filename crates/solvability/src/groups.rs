@@ -6,6 +6,7 @@ mod configuration;
 mod error;
 mod form;
 mod group;
+mod numbers;
 mod reactions;
 
 use crate::judged::ComponentVerdict;
@@ -18,6 +19,7 @@ pub(crate) use error::{check, check_finite};
 pub use form::LinearForm;
 pub(crate) use group::NO_REACTION;
 pub use group::{Group, Term};
+pub use numbers::GroupNumbers;
 pub use reactions::ReactionForms;
 
 use crate::verdict::{Judgement, worst};

@@ -30,6 +30,7 @@
 //! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |
 //! | [`sensitivity`] | how much a unique reaction depends on the data |
 //! | [`mod@second_order`] | whether the motion is unique at a drop of rank |
+//! | [`mod@stretches`] | verdicts of a run, by stretches of time and component |
 //! | [`along`] | verdicts along a motion: the generic verdict, and the times of others |
 //! | `words` | lists, numbers and vectors in sentences |
 //! | `loads` | forces and moments in space that joints share, as sentences |
@@ -67,6 +68,7 @@ pub mod sensitivity;
 mod sketch;
 mod sparse;
 pub mod state;
+pub mod stretches;
 pub mod structure;
 pub mod units;
 pub mod verdict;
@@ -82,8 +84,8 @@ pub use analysis::{
 };
 pub use certificate::{certify, inseparable};
 pub use choices::{
-    Choice, ChoiceError, Compliance, Distribution, Equations, Label, NormWeights, ReactionValues,
-    Solution, Value, minimise, solution,
+    Choice, ChoiceError, Chosen, Compliance, Distribution, Equations, Label, NormWeights,
+    ReactionValues, Solution, Value, minimise, solution,
 };
 pub use error::AnalysisError;
 pub use existence::{
@@ -99,10 +101,11 @@ pub use freedoms::{
 };
 pub use generic::{Generic, OtherConfiguration, generic, is_permanent};
 pub use groups::{
-    Configuration, Group, GroupVerdict, LinearForm, ReactionForms, RequestError, Term, judge_groups,
+    Configuration, Group, GroupNumbers, GroupVerdict, LinearForm, ReactionForms, RequestError,
+    Term, judge_groups,
 };
 pub use judged::{ComponentVerdict, Dependency, ReactionVerdict, RowVerdict};
-pub use limits::{FRAGILE, KERNEL_MAX, MOTIONS_REPORTED, MOVED, ONE_PART};
+pub use limits::{CARRIED_VECTORS, FRAGILE, KERNEL_MAX, MOTIONS_REPORTED, MOVED, ONE_PART};
 pub use make_unique::{Allowed, Proposal, Proposals, make_unique};
 pub use matrices::{QueryError, Solvability};
 pub use memory::memory_of_verdicts;
@@ -117,6 +120,10 @@ pub use rows::{
 pub use second_order::{Continuation, Undetermined, blocked_velocities, is_locked, second_order};
 pub use sensitivity::{Datum, Sensitivities, Sensitivity};
 pub use state::{State, StateError};
+pub use stretches::{
+    CarriedState, CarriedVerdicts, GroupStretches, Looked, ReactionStretches, SpecialInstant,
+    Stretches, VerdictRecorder, VerdictStretch, VerdictTrack,
+};
 pub use structure::structure;
 pub use units::{Nature, UnitCheck, UnitError, Units, check_units};
 pub use verdict::{Judgement, Verdict};

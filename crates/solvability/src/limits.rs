@@ -46,6 +46,12 @@ pub(crate) const SPARE_COMBINATIONS: usize = 4;
 /// `a_motor_that_lags_behind_is_named_with_the_joints_between`.
 pub const ONE_PART: usize = 250;
 
+/// Vectors of the left null space from which verdicts are read along a motion: a redundancy up to
+/// this is read whole, a larger one from as many random combinations.
+/// Unit: vectors. Less: a coefficient is read from so few combinations that they may cancel. More:
+/// time at each step and row. Test: `many_dependencies_are_read_from_few_combinations`.
+pub const CARRIED_VECTORS: usize = 8;
+
 /// By how much singular values must clear the tolerance: runs of the stress matrix keep their
 /// digits from a factor of thirty on.
 /// Unit: multiples of the tolerance. Less: digits of the motion are lost. More: motions near

@@ -90,11 +90,8 @@ pub(crate) fn reaction(
     detail: Detail,
 ) -> Result<ReactionVerdict, QueryError> {
     let group = &mechanism.layout().groups[id.0];
-    let (components, names) = (group.components(), group.space.components());
-    let full = mechanism.reactions(s).wrench_map(id);
-    let map = Matrix::from_fn(components.len(), rows.len(), |i, j| {
-        full[(components[i], j)]
-    });
+    let names = group.space.components();
+    let (components, map) = component_map(mechanism, id, s);
     let forces = components
         .iter()
         .filter(|&c| group.space.forces().contains(c))
@@ -165,4 +162,19 @@ pub(crate) fn reaction(
         },
         live_directions,
     })
+}
+
+/// The components of a reaction that are not identically zero, as indices of
+/// [`model::SpaceKind::components`], and the map to them from the multipliers of its rows.
+pub(crate) fn component_map(
+    mechanism: &Mechanism,
+    id: ConstraintId,
+    s: &Scratch,
+) -> (Vec<usize>, Matrix) {
+    let components = mechanism.layout().groups[id.0].components();
+    let full = mechanism.reactions(s).wrench_map(id);
+    let map = Matrix::from_fn(components.len(), full.ncols(), |i, j| {
+        full[(components[i], j)]
+    });
+    (components, map)
 }

@@ -71,7 +71,6 @@ impl Decided {
 
     /// What verdicts of a group of the decided rows are read from: the rows alone.
     pub(crate) fn basis(&self, own: &[usize]) -> Basis {
-        let e = &self.found.evidence;
         let of_rows = own.iter().flat_map(|&i| self.c.row(i).0);
         let mut columns: Vec<usize> = of_rows.copied().collect();
         let entries = columns.len();
@@ -88,23 +87,28 @@ impl Decided {
                 }
             }
         }
-        let w = &self.found.sketch;
-        let noise = self.found.noise();
         Basis {
             c,
-            z: w.select_rows(own),
-            known: matrices::Known {
-                status: self.found.status,
-                row_factor: own.iter().map(|&i| scaling.row_factor(i)).collect(),
-                row_noise: vec![noise; own.len()],
-                row_rounding: Vec::new(),
-                tolerance: noise,
-                spread: e.uncertainty * (entries as f64).sqrt(),
-                uncertainty: e.uncertainty,
-                row_turn: None,
-                readings: self.found.readings(),
-            },
+            z: self.found.sketch.select_rows(own),
+            known: self.known(own, entries),
             exact: None,
+        }
+    }
+
+    /// The accuracy of what is read of these rows, which have so many entries.
+    pub(crate) fn known(&self, own: &[usize], entries: usize) -> matrices::Known {
+        let (e, noise) = (&self.found.evidence, self.found.noise());
+        let row_factor = own.iter().map(|&i| self.found.scaling.row_factor(i));
+        matrices::Known {
+            status: self.found.status,
+            row_factor: row_factor.collect(),
+            row_noise: vec![noise; own.len()],
+            row_rounding: Vec::new(),
+            tolerance: noise,
+            spread: e.uncertainty * (entries as f64).sqrt(),
+            uncertainty: e.uncertainty,
+            row_turn: None,
+            readings: self.found.readings(),
         }
     }
 }

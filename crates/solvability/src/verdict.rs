@@ -28,6 +28,21 @@ impl Verdict {
         }
     }
 
+    /// How much it leaves open: unique, undecided, not unique.
+    pub(crate) fn severity(&self) -> u8 {
+        match self {
+            Self::Unique => 0,
+            Self::Undecided { .. } => 1,
+            Self::NotUnique => 2,
+        }
+    }
+
+    /// Whether it is decided.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        !matches!(self, Self::Undecided { .. })
+    }
+
     /// Whether it is [`Verdict::Unique`].
     #[must_use]
     pub fn is_unique(&self) -> bool {
@@ -102,11 +117,7 @@ impl Judgement {
 /// undecided. Among equal verdicts the one with the largest margin counts (NaN is the largest).
 /// Margins of different verdicts cannot be compared, because each was compared with its own noise.
 pub(crate) fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judgement> {
-    let severity = |j: &Judgement| match j.verdict {
-        Verdict::Unique => 0,
-        Verdict::Undecided { .. } => 1,
-        Verdict::NotUnique => 2,
-    };
+    let severity = |j: &Judgement| j.verdict.severity();
     let mut within_tolerance = false;
     let judgements = judgements.inspect(|j| within_tolerance |= j.within_tolerance);
     let worst = judgements.max_by(|a, b| {

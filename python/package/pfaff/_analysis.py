@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -70,52 +71,58 @@ class Verdict:
 
     @property
     def document(self) -> dict[str, Any]:
-        """Everything that is known of it: its entry of ``pfaff analyze --json``."""
+        """Everything that is known of it: its entry of ``pfaff analyze --json``, a copy."""
+        return deepcopy(self._entry)
+
+    @property
+    def _entry(self) -> dict[str, Any]:
         return self._analysis._reactions[self.name]
 
     @property
     def type(self) -> str:
         """The type of the joint, as in scenes."""
-        kind: str = self.document["type"]
+        kind: str = self._entry["type"]
         return kind
 
     @property
     def rows(self) -> list[int]:
         """Its rows, from 1."""
-        rows: list[int] = self.document["rows"]
+        rows: list[int] = self._entry["rows"]
         return rows
 
     @property
     def margin(self) -> float:
         """Distance from being unique; rounding for a unique reaction."""
-        margin: float = self.document["margin"]
+        margin: float = self._entry["margin"]
         return margin
 
     @property
     def components(self) -> dict[str, ComponentVerdict]:
         """The verdicts on its components that are not zero under every load."""
-        return _components(self.document["components"])
+        return _components(self._entry["components"])
 
     @property
     def directions(self) -> Array | None:
         """A basis of the directions in which the reaction is unique, one in each row.
 
-        The columns are the components. ``None`` if their number is undecided.
+        The columns are the components: in the plane those of the joint, in space all six. There is
+        no row if no direction is unique; ``None`` if their number is undecided.
         """
-        directions = self.document["unique_directions"]
+        directions = self._entry["unique_directions"]
         if directions is None:
             return None
-        return np.array(directions, dtype=np.float64).reshape(len(directions), -1)
+        columns = self._analysis._direction_columns(self._entry)
+        return np.array(directions, dtype=np.float64).reshape(len(directions), columns)
 
     @property
     def fragile(self) -> bool:
         """Whether it is unique, but made of the last digits of the data."""
-        fragile: bool = self.document["fragile"]
+        fragile: bool = self._entry["fragile"]
         return fragile
 
     def explain(self) -> str:
         """Why it is not unique; empty if it is."""
-        words: str | None = self.document.get("explanation")
+        words: str | None = self._entry.get("explanation")
         return words or ""
 
     def moment(self, about: Point) -> dict[str, ComponentVerdict]:
@@ -197,15 +204,25 @@ class Analysis:
 
     @property
     def document(self) -> dict[str, Any]:
-        """The document of ``pfaff analyze --json``, made once."""
+        """The document of ``pfaff analyze --json``: a copy, whose changes nobody else sees."""
+        return deepcopy(self._own)
+
+    @property
+    def _own(self) -> dict[str, Any]:
+        """The document, made once."""
         if self._document is None:
             self._document = json.loads(self._of.document([]))
         return self._document
 
+    def _direction_columns(self, reaction: Mapping[str, Any]) -> int:
+        """Number of columns of the directions of a reaction."""
+        is_spatial = self._own["velocities"] == 6 * self._own["bodies"]
+        return 6 if is_spatial else len(reaction["components"])
+
     @property
     def _reactions(self) -> dict[str, dict[str, Any]]:
         if self._named is None:
-            self._named = {r["name"]: r for r in self.document["reactions"]}
+            self._named = {r["name"]: r for r in self._own["reactions"]}
         return self._named
 
     @property
@@ -236,7 +253,7 @@ class Analysis:
     @property
     def warnings(self) -> list[str]:
         """What else has to be known."""
-        warnings: list[str] = self.document["warnings"]
+        warnings: list[str] = self._own["warnings"]
         return warnings
 
     def combine(self, sum: str) -> GroupVerdict:
@@ -273,7 +290,7 @@ class Analysis:
 
     def explain(self) -> list[str]:
         """Why reactions are not unique: a sentence for each dependency of rows."""
-        return [dependency["text"] for dependency in self.document["dependencies"]]
+        return [dependency["text"] for dependency in self._own["dependencies"]]
 
     def reactions(
         self,

@@ -108,7 +108,7 @@ class Reaction(_Columns):
 
     @property
     def force(self) -> Array:
-        """Forces (N), 2 or 3 columns; NaN where they are not unique."""
+        """Forces (N), 2 or 3 columns; NaN where a component is not determined on its stretch."""
         return self._of(("Fx", "Fy", "Fz"))
 
     @property
@@ -133,21 +133,20 @@ class Run:
         self.trajectory: Array = of.trajectory
         """The columns of ``trajectory.csv`` after ``t``."""
         self.reactions: Array = of.reactions
-        """The columns of ``reactions.csv`` after ``t``; NaN for what is not unique."""
+        """The columns of ``reactions.csv`` after ``t``; NaN where a cell is empty."""
         for array in (self.t, self.q, self.v, self.trajectory, self.reactions):
             array.flags.writeable = False
         self.document: dict[str, Any] = json.loads(of.document)
         """The summary, as ``summary.json``."""
         self.columns: list[str] = [_heading(owner, number) for _, owner, number in of.columns]
         """Names of the columns of :attr:`trajectory`."""
-        self.reaction_columns: list[str] = [
-            _heading(owner, number) for _, owner, number in of.reaction_columns
-        ]
+        self.reaction_columns: list[str] = of.reaction_names
         """Names of the columns of :attr:`reactions`."""
         self._bodies = _grouped(of.columns, self.trajectory, BodyMotion, ("body",))
         self._markers = _grouped(of.columns, self.trajectory, BodyMotion, ("marker",))
         self._others = _grouped(of.columns, self.trajectory, _Columns, ("measure", "law"))
         self._reactions = _grouped(of.reaction_columns, self.reactions, Reaction, ("reaction",))
+        self._groups = _grouped(of.reaction_columns, self.reactions, _Columns, ("group",))
 
     @property
     def bodies(self) -> list[str]:
@@ -196,6 +195,10 @@ class Run:
     def reaction(self, name: str) -> Reaction:
         """The reaction of a joint or drive."""
         return _named("joint or drive", name, self._reactions)
+
+    def group(self, name: str) -> _Columns:
+        """The numbers of a group of the scene; NaN where they are not determined."""
+        return _named("group with numbers", name, self._groups)
 
     def report(self, path: str | os.PathLike[str]) -> None:
         """Writes the page of this run for any browser.

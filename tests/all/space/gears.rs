@@ -44,7 +44,7 @@ impl End {
         let (mut q, mut v, mut reactions) = (Vec::new(), Vec::new(), Vec::new());
         let summary = study.run(&options, |sample| {
             (q, v) = (sample.q.to_vec(), sample.v.to_vec());
-            reactions = sample.reactions()?;
+            reactions = sample.reactions()?.as_chosen().to_vec();
             Ok(ControlFlow::Continue(()))
         });
         let summary = summary.unwrap_or_else(|e| panic!("{}", e.error));

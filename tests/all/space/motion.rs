@@ -251,7 +251,7 @@ fn a_disk_rolls_steadily() {
         );
         assert!((row.v[5] - disk.spin()).abs() < 1e-9, "{}", row.v[5]);
         close(&row.q[2..3], &[RollingDisk::RADIUS * tilt], 1e-10, "height");
-        let reactions = row.reactions().expect("unique");
+        let reactions = row.reactions().expect("unique").as_chosen().to_vec();
         let [edge] = &reactions[..] else {
             panic!("one joint: {reactions:?}");
         };

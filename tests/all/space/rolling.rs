@@ -34,7 +34,7 @@ fn moved(scene: &str, t_end: f64) -> Vec<Row> {
     };
     let mut rows = Vec::new();
     let run = study.run(&options, |sample| {
-        let [reaction] = sample.reactions()?[..] else {
+        let [reaction] = sample.reactions()?.as_chosen()[..] else {
             panic!("one joint");
         };
         rows.push(Row {

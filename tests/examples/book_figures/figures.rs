@@ -269,7 +269,7 @@ fn reactions(text: &str) -> Fallible<String> {
         study
             .run(&options, |sample| {
                 times.push(sample.t);
-                let found = sample.reactions()?;
+                let found = sample.reactions()?.as_chosen().to_vec();
                 for (k, (_, _, component)) in shown.iter().enumerate() {
                     let value = at[k].map_or(f64::NAN, |g| component(&found[g]));
                     values[k][choice].push(value);

@@ -502,7 +502,7 @@ fn compare(
     let mut lambda = vec![f64::NAN; layout.rows()];
     let mut expected = vec![0.0; layout.rows()];
     code.multipliers(t, q, v, &mut lambda);
-    motion.multipliers(t, q, v, &mut expected)?;
+    motion.write_multipliers(t, q, v, &mut expected)?;
     let size = expected.iter().fold(0.0, |a, l| f64::max(a, l.abs()));
     let forces = mechanism.mass().iter().enumerate();
     let inertia = forces.fold(0.0, |a, (j, m)| f64::max(a, m * rate * unit(j)));

@@ -1,6 +1,7 @@
 //! The plan of one component: a set of bodies that affect each other.
 
-use model::{Mechanism, Places};
+use model::{ConstraintId, Mechanism, Places};
+use solvability::Group;
 
 use super::decisions::Decisions;
 use super::sizes::Sizes;
@@ -72,6 +73,17 @@ impl<'a> ComponentPlan<'a> {
     #[must_use]
     pub fn prepared(&self) -> &Prepared {
         self.whose.prepared()
+    }
+
+    /// What belongs to it of a group of the whole mechanism.
+    pub(crate) fn share(&self, group: &Group) -> Option<Group> {
+        match self.places() {
+            None => Some(group.clone()),
+            Some(places) => group.share(|id| {
+                let own = places.groups.binary_search(&id.0).ok();
+                own.map(ConstraintId)
+            }),
+        }
     }
 
     /// Its places in the whole mechanism; `None` if it is the whole.

@@ -4,13 +4,14 @@ use std::time::Instant;
 
 use integrators::{Interval, Options, OutputTimes, Rows};
 use model::System;
-use solvability::{contradicting_drives_along, generic};
+use solvability::{Group, contradicting_drives_along, generic};
 
 use super::caller::{ShowRow, Stop, Watch, named};
 use super::equations::RunEquations;
 use super::integration::Run;
 use super::sample::AtRows;
 use super::summary::{Failure, Summary};
+use super::verdicts::RunVerdicts;
 use crate::code::SceneCode;
 use crate::error::{MotionError, MotionFault};
 use crate::motion::KeptRowMotion;
@@ -52,7 +53,14 @@ pub(super) fn run_component(
         accelerations: plan.accelerations.value,
         reactions: component.decisions.reactions.value.clone(),
     };
-    let equations = RunEquations::new(motion, prepared, options, wanted, stop);
+    let groups: Vec<Group> = plan
+        .groups
+        .iter()
+        .filter_map(|group| component.share(group))
+        .collect();
+    let verdicts = (!wanted.reactions.is_empty())
+        .then(|| RunVerdicts::new(&motion, prepared, options, &groups));
+    let equations = RunEquations::new(motion, prepared, options, (wanted, verdicts), stop);
     let y0 = equations.y0();
     let interval = Interval {
         t0: 0.0,
@@ -74,8 +82,11 @@ pub(super) fn run_component(
         Ok(o) => (o.t, o.statistics),
         Err(f) => (f.t, f.statistics),
     };
+    let (verdicts, dropped) = run.equations.finish_verdicts(&groups, t).unzip();
     let summary = Summary {
         t,
+        verdicts,
+        dropped: dropped.unwrap_or_default(),
         method,
         steps: statistics.accepted,
         rejected: statistics.rejected(),

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 use integrators::{Delicate, Implicit, IntegrationError, Ode, StepEnd, StepInfo, Tolerance};
 use model::{Mechanism, System};
+use solvability::{Group, Looked, Stretches};
 
 use super::by_time::ByTime;
 use super::caller::Stop;
@@ -13,6 +14,8 @@ use super::record::Record;
 use super::reduced::Reduced;
 use super::sample::{AtRows, Known, OfMotion, Sample, Source};
 use super::span::Span;
+use super::summary::DroppedRows;
+use super::verdicts::RunVerdicts;
 use crate::error::MotionFault;
 use crate::guards::GUARDED;
 use crate::limits::{COARSE, IMPLICIT_REACH, QUATERNION_LENGTHS};
@@ -39,6 +42,8 @@ pub(super) struct RunEquations<'m> {
     pub(super) record: Record,
     /// Output requested at rows.
     wanted: AtRows,
+    /// Verdicts on the way, if reactions are requested.
+    verdicts: Option<RunVerdicts<'m>>,
     /// Linear systems of implicit methods, allocated by their first step.
     reduced: Option<Reduced>,
     until: Until<'m>,
@@ -84,7 +89,7 @@ impl<'m> RunEquations<'m> {
         motion: KeptRowMotion<'m>,
         prepared: &Prepared,
         options: &MotionOptions,
-        wanted: AtRows,
+        (wanted, verdicts): (AtRows, Option<RunVerdicts<'m>>),
         stop: &'m Stop<'m>,
     ) -> Self {
         let (q, v, mechanism) = (&prepared.q, &prepared.v, motion.mechanism());
@@ -94,6 +99,7 @@ impl<'m> RunEquations<'m> {
         let mut equations = Self {
             record: Record::new(mechanism, q, v),
             wanted,
+            verdicts,
             reduced: None,
             until: Until {
                 t_end: options.t_end,
@@ -237,6 +243,12 @@ impl<'m> RunEquations<'m> {
             self.motion.equations.accept_misfits(false);
         }
         let is_settled = self.motion.manifold.projects() && !self.motion.is_on_code();
+        let dropped = self.motion.equations.without_multiplier().to_vec();
+        if let Some(verdicts) = &mut self.verdicts {
+            let is_factored = found.is_some() && is_settled;
+            let state = (t, t_before, q);
+            verdicts.look_at_row(&mut self.motion, state, is_factored)?;
+        }
         let source = OfMotion {
             known: if found.is_some() && is_settled {
                 Known::Factored
@@ -255,6 +267,7 @@ impl<'m> RunEquations<'m> {
             v,
             work,
             events,
+            dropped: &dropped,
             source: Source::Motion(source),
         });
         self.record.shown = self.record.events.len();
@@ -271,6 +284,61 @@ impl<'m> RunEquations<'m> {
     /// Takes an accepted step, for the rows within it.
     pub(super) fn take_step(&mut self, times: [f64; 2], ends: [&[f64]; 4]) {
         self.last.take(times, ends);
+    }
+
+    /// Cuts the verdicts at the events of an accepted step, which are those from `first_event` on.
+    /// Returns times between two cuts between which nothing else is looked at.
+    pub(super) fn cut_verdicts(&mut self, times: [f64; 2], first_event: usize) -> Vec<f64> {
+        let ends_there = times[1] == self.until.t_end || self.is_break(times[1]);
+        let Some(verdicts) = &mut self.verdicts else {
+            return Vec::new();
+        };
+        let events = self.record.events[first_event..].iter();
+        let cuts: Vec<f64> = events.filter(|e| e.kind.cuts()).map(|e| e.time).collect();
+        verdicts.cut(&cuts, times, ends_there)
+    }
+
+    /// Reads the verdicts at a time within an accepted step, ahead of its rows. A state that is not
+    /// on the constraints is moved there first.
+    pub(super) fn judge_ahead(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        is_on_constraints: bool,
+    ) -> Result<(), MotionFault> {
+        let Some(mut verdicts) = self.verdicts.take() else {
+            return Ok(());
+        };
+        let t_before = if self.is_break(t) { t.next_down() } else { t };
+        if !is_on_constraints {
+            self.lead_completion(t);
+            let (q, v, _) = self.motion.parts_mut(y);
+            self.motion.end_row(t_before, (q, v))?;
+        }
+        let (q, _) = self.motion.parts(y);
+        let looked = verdicts.look(&mut self.motion, (t, t_before, q), false, Looked::Ahead);
+        self.verdicts = Some(verdicts);
+        looked
+    }
+
+    /// Whether verdicts are read on the way.
+    pub(super) fn reads_verdicts(&self) -> bool {
+        self.verdicts.as_ref().is_some_and(RunVerdicts::may_change)
+    }
+
+    /// Number of events so far.
+    pub(super) fn events(&self) -> usize {
+        self.record.events.len()
+    }
+
+    /// The verdicts up to this time, and the rows without multiplier.
+    pub(super) fn finish_verdicts(
+        &mut self,
+        groups: &[Group],
+        to: f64,
+    ) -> Option<(Stretches, Vec<DroppedRows>)> {
+        let verdicts = self.verdicts.take()?;
+        Some(verdicts.finish(&self.motion, groups, to))
     }
 
     /// The reason why steps have collapsed at time t, if it is known: a singular configuration

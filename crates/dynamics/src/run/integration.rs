@@ -134,13 +134,20 @@ impl<'r, 'm> Run<'r, 'm> {
             stopped,
         } = self;
         let (mut refused, mut hands_over) = (None, false);
+        let mut events = equations.events();
         let outcome = integrate(method, equations, interval, y, settings, |step| {
             let (times, ends) = (
                 [step.t0(), step.t1()],
                 [step.y0(), step.f0(), step.y1(), step.f1()],
             );
             step.ode().take_step(times, ends);
+            let known = events;
             passages::note(step);
+            if let Err(fault) = judge_ahead(step, known) {
+                *stopped = Some(fault.into());
+                return ControlFlow::Break(());
+            }
+            events = step.ode().events();
             let emitted = rows.emit(step, |e, t, y| show(e, (t, y), row, stopped));
             emitted.unwrap_or_else(|error| {
                 refused = Some(error);
@@ -161,6 +168,27 @@ impl<'r, 'm> Run<'r, 'm> {
         }
         (hands_over, outcome)
     }
+}
+
+/// Reads the verdicts at the end of an accepted step and between its events, which are those from
+/// `first_event` on.
+fn judge_ahead(
+    step: &mut integrators::Step<'_, RunEquations<'_>>,
+    first_event: usize,
+) -> Result<(), MotionFault> {
+    if !step.ode().reads_verdicts() {
+        return Ok(());
+    }
+    let times = [step.t0(), step.t1()];
+    let mut y = step.y1().to_vec();
+    for t in step.ode().cut_verdicts(times, first_event) {
+        // Times between events lie within the step.
+        if step.interpolate_accurately(t, &mut y).is_ok() {
+            step.ode().judge_ahead(t, &mut y, false)?;
+        }
+    }
+    y.copy_from_slice(step.y1());
+    step.ode().judge_ahead(times[1], &mut y, true)
 }
 
 /// Shows a row; a fault ends the run.

@@ -1,6 +1,7 @@
 //! One row of output: a state, and values computed from it on request.
 
 use model::{Mechanism, Reaction, System};
+use solvability::Chosen;
 
 use crate::error::MotionFault;
 use crate::events::Event;
@@ -19,6 +20,8 @@ pub struct Sample<'s, 'm> {
     /// Events that were found since the row before; their times may be later than that of the row,
     /// by less than a step.
     pub events: &'s [Event],
+    /// The rows (from 0) whose multipliers are zero by choice in this row of output.
+    pub dropped: &'s [usize],
     pub(super) source: Source<'s, 'm>,
 }
 
@@ -68,13 +71,17 @@ pub(super) struct Values {
     pub(super) reactions: Result<Vec<Reaction>, MotionFault>,
 }
 
+/// All requested values of a row, and its rows without multiplier.
+pub(super) type RowValues = (Values, Vec<usize>);
+
 impl Sample<'_, '_> {
     /// All requested values of the row.
-    pub(super) fn values(&mut self) -> Values {
-        match &mut self.source {
+    pub(super) fn values(&mut self) -> RowValues {
+        let values = match &mut self.source {
             Source::Motion(source) => source.values(self.q, self.v),
             Source::Several(values) => (*values).clone(),
-        }
+        };
+        (values, self.dropped.to_vec())
     }
 
     /// Accelerations, NaN if the plan omits them; allocates.
@@ -93,11 +100,12 @@ impl Sample<'_, '_> {
     ///
     /// # Errors
     /// If the equations have no unique solution at this state.
-    pub fn multipliers(&mut self) -> Result<Vec<f64>, MotionFault> {
-        match &mut self.source {
+    pub fn multipliers(&mut self) -> Result<Chosen<f64>, MotionFault> {
+        let multipliers = match &mut self.source {
             Source::Motion(source) => source.multipliers(self.q, self.v).map(<[f64]>::to_vec),
             Source::Several(values) => values.multipliers.clone(),
-        }
+        };
+        Ok(Chosen::new(multipliers?, self.dropped.to_vec()))
     }
 
     /// Reactions of all joints and drives in the order of their rows; NaN for those that the plan
@@ -106,11 +114,12 @@ impl Sample<'_, '_> {
     ///
     /// # Errors
     /// If the equations have no unique solution at this state.
-    pub fn reactions(&mut self) -> Result<Vec<Reaction>, MotionFault> {
-        match &mut self.source {
+    pub fn reactions(&mut self) -> Result<Chosen<Reaction>, MotionFault> {
+        let reactions = match &mut self.source {
             Source::Motion(source) => source.reactions(self.q, self.v),
             Source::Several(values) => values.reactions.clone(),
-        }
+        };
+        Ok(Chosen::new(reactions?, self.dropped.to_vec()))
     }
 }
 
@@ -150,7 +159,8 @@ impl OfMotion<'_, '_> {
             return Ok(lambda);
         }
         if self.motion.is_on_code() || self.motion.equations.requested_rows.is_some() {
-            self.motion.multipliers(self.t_before, q, v, &mut lambda)?;
+            self.motion
+                .write_multipliers(self.t_before, q, v, &mut lambda)?;
         } else {
             let a = self.solve(q, v)?;
             self.motion.multipliers_for(&a, &mut lambda)?;

@@ -9,11 +9,12 @@ use std::thread::{self, ScopedJoinHandle};
 use std::time::Instant;
 
 use model::{Places, Reaction, System};
+use solvability::Stretches;
 
 use super::caller::{ShowRow, Stop, Watch};
 use super::component::run_component;
 use super::permits::Permits;
-use super::sample::{Sample, Source, Values, left_out};
+use super::sample::{RowValues, Sample, Source, Values, left_out};
 use super::summary::{ComponentSummary, Failure, Summary, WholeEvents};
 use crate::error::{MotionError, MotionFault};
 use crate::events::Event;
@@ -27,7 +28,7 @@ struct Row {
     v: Vec<f64>,
     work: f64,
     events: Vec<Event>,
-    values: Values,
+    values: RowValues,
 }
 
 /// A component on its thread, as seen by the thread that collects rows.
@@ -127,6 +128,7 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
     loop {
         let mut found: Vec<(usize, Event)> = Vec::new();
         let (mut time, mut work) = (None, 0.0);
+        let mut without = Vec::new();
         let mut values = Values {
             acceleration: Ok(vec![f64::NAN; layout.n_v]),
             multipliers: Ok(vec![f64::NAN; layout.rows()]),
@@ -145,7 +147,8 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
             found.extend(own.events.into_iter().map(|event| (k, event)));
             spread(&own.q, &places.coordinates, &mut q);
             spread(&own.v, &places.velocities, &mut v);
-            let (own, all) = (own.values, &mut values);
+            let ((own, dropped), all) = (own.values, &mut values);
+            without.extend(dropped.iter().map(|&i| places.rows[i]));
             gather(own.acceleration, &places.velocities, &mut all.acceleration);
             gather(own.multipliers, &places.rows, &mut all.multipliers);
             gather(own.reactions, &places.groups, &mut all.reactions);
@@ -153,8 +156,10 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
         found.sort_by(|(_, a), (_, b)| a.time.total_cmp(&b.time));
         let found = found.iter().map(|(k, event)| whole.event(*k, event));
         let events: Vec<Event> = found.collect();
+        without.sort_unstable();
         let shown = row(&mut Sample {
             t: time?,
+            dropped: &without,
             q: &q,
             v: &v,
             work,
@@ -221,9 +226,30 @@ fn conclude(
         .iter()
         .map(|c| c.prepared().decision.dropped.as_slice())
         .collect();
-    let summary = Summary::of_components(components, &dropped, wall_seconds);
+    let mut summary = Summary::of_components(components, &dropped, wall_seconds);
+    summary.verdicts = verdicts(plan, &summary);
     match stopped.or(earliest.map(|(_, error)| error)) {
         Some(error) => Err(Box::new(Failure { error, summary })),
         None => Ok(summary),
     }
+}
+
+/// The verdicts of the whole mechanism from those of its components; `None` if one has none.
+fn verdicts(plan: &Plan<'_>, summary: &Summary) -> Option<Stretches> {
+    let mechanism = &plan.prepared().mechanism;
+    let mut whole = Stretches::unique(mechanism, [0.0, summary.t], &plan.groups);
+    for (component, own) in plan.components.iter().zip(&summary.components) {
+        // A component without requested reactions has no verdicts.
+        let Some(found) = &own.summary.verdicts else {
+            continue;
+        };
+        let shares = plan.groups.iter().enumerate();
+        let shares: Vec<usize> = shares
+            .filter_map(|(k, group)| component.share(group).map(|_| k))
+            .collect();
+        whole.take(found, &own.places.groups, &shares);
+    }
+    whole.sum_up(&plan.groups);
+    let known = |c: &ComponentSummary| c.summary.verdicts.is_some();
+    summary.components.iter().any(known).then_some(whole)
 }

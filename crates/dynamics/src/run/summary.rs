@@ -7,6 +7,7 @@ use crate::error::MotionError;
 use crate::events::Event;
 use crate::options::Method;
 use crate::solve::Misfit;
+use solvability::Stretches;
 
 /// Numbers of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,8 +49,24 @@ pub struct Summary {
     pub misfits: Vec<Misfit>,
     /// Events of the run.
     pub events: Vec<Event>,
+    /// Verdicts on reactions and groups, by stretches of time; `None` if no reactions were
+    /// requested.
+    pub verdicts: Option<Stretches>,
+    /// The rows whose multipliers were zero by choice in rows of output, each from the time on at
+    /// which they were; empty if no reactions were requested.
+    pub dropped: Vec<DroppedRows>,
     /// Components that were run separately; empty if the mechanism was not split.
     pub components: Vec<ComponentSummary>,
+}
+
+/// Rows whose multipliers were zero by choice, from a time on.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct DroppedRows {
+    /// Time of the first row of output (s).
+    pub from: f64,
+    /// The rows, from 0, ascending.
+    pub rows: Vec<usize>,
 }
 
 /// Numbers of a component that was run separately.
@@ -62,6 +79,27 @@ pub struct ComponentSummary {
     pub places: Places,
     /// Its numbers; rows and degrees of redundancy are those of the component.
     pub summary: Summary,
+}
+
+impl DroppedRows {
+    /// Those of components with the rows of the whole mechanism.
+    pub(super) fn together(components: &[ComponentSummary]) -> Vec<Self> {
+        let each = components.iter().map(|c| &c.summary.dropped);
+        let mut times: Vec<f64> = each.flatten().map(|dropped| dropped.from).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        let at = |from: f64| {
+            let own = components.iter().flat_map(|c| {
+                let begun = c.summary.dropped.partition_point(|d| d.from <= from);
+                let last = begun.checked_sub(1).map(|k| &c.summary.dropped[k].rows);
+                last.map_or_else(Vec::new, |rows| of_whole(&c.places.rows, rows))
+            });
+            let mut rows: Vec<usize> = own.collect();
+            rows.sort_unstable();
+            Self { from, rows }
+        };
+        times.into_iter().map(at).collect()
+    }
 }
 
 /// A run that stopped early, with the numbers up to there.
@@ -110,6 +148,8 @@ impl Summary {
             min_pivot_ratio: smallest(|s| s.min_pivot_ratio),
             misfits: misfits(&components),
             events: events(&components, dropped),
+            verdicts: None,
+            dropped: DroppedRows::together(&components),
             components,
         }
     }

@@ -42,6 +42,12 @@ impl<'m> KeptEquations<'m> {
         }
     }
 
+    /// The rows of C whose multipliers are zero by choice.
+    pub(crate) fn without_multiplier(&self) -> &[usize] {
+        let rows = self.requested_rows.as_ref().unwrap_or(&self.velocity);
+        &rows.dropped
+    }
+
     /// Evaluates a configuration and factors the rows of C there.
     pub(crate) fn factor_at(&mut self, t: f64, q: &[f64]) -> Result<(), MotionFault> {
         self.at.pose(t, q);

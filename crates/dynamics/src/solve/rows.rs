@@ -7,7 +7,7 @@
 
 use linalg::{PivotedQr, SaddleError};
 use model::System;
-use solvability::RowDecision;
+use solvability::{CARRIED_VECTORS, RowDecision};
 
 use super::evaluation::Evaluation;
 use super::solver::Solver;
@@ -324,6 +324,34 @@ impl KeptRows {
         z[dropped] = 1.0;
         for (&k, coefficient) in self.kept.iter().zip(&self.lambda) {
             z[k] = -coefficient;
+        }
+        Ok(())
+    }
+
+    /// Writes dependencies of the dropped rows on the kept ones, as [`Self::dependency`] does: of
+    /// each dropped row or, if there are many, of sums of all of them with random signs. The rows
+    /// must be factored.
+    pub(crate) fn dependencies(
+        &mut self,
+        at: &Evaluation<'_>,
+        z: &mut Vec<Vec<f64>>,
+    ) -> Result<(), MotionFault> {
+        let count = self.dropped.len().min(CARRIED_VECTORS);
+        z.resize(count, vec![0.0; at.mechanism.layout().rows()]);
+        if self.dropped.len() <= CARRIED_VECTORS {
+            for (k, z) in z.iter_mut().enumerate() {
+                self.dependency(at, self.dropped[k], z)?;
+            }
+            return Ok(());
+        }
+        for (seed, z) in (1..).zip(z.iter_mut()) {
+            self.imply_sum(at, seed).map_err(|e| self.fault(at, e))?;
+            for (k, &i) in self.dropped.iter().enumerate() {
+                z[i] = sign_of(k, seed);
+            }
+            for (&i, coefficient) in self.kept.iter().zip(&self.lambda) {
+                z[i] = -coefficient;
+            }
         }
         Ok(())
     }

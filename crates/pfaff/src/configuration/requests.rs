@@ -25,7 +25,7 @@ pub(super) fn reaction(
 }
 
 /// Groups with their names: those of the scene, then the requested combinations.
-pub(super) fn groups(
+pub(crate) fn groups(
     scene: &Scene,
     mechanism: &Mechanism,
     combine: &[String],

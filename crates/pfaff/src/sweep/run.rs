@@ -100,6 +100,7 @@ impl Begun {
             rows: Rows::Every,
             accelerations: false,
             reactions: Reactions::Of(watch.names()),
+            groups: Vec::new(),
         };
         let row = |sample: &mut Sample<'_, '_>| {
             watch.see(sample)?;
@@ -136,24 +137,18 @@ struct Watch<'s> {
     t_state: f64,
     /// The last coordinates and velocities; none before the first row.
     last: Option<(Vec<f64>, Vec<f64>)>,
-    /// The requested reactions, and whether each is unique.
-    reactions: Vec<(usize, bool)>,
+    /// The requested reactions; `None` for one that this run does not have.
+    reactions: &'s [Option<usize>],
     extremes: Vec<Extreme>,
 }
 
 impl<'s> Watch<'s> {
     fn new(begun: &'s Begun) -> Self {
-        let is_unique = |k: usize| {
-            let verdict = begun.analysis.reactions.get(k).map(|r| &r.wrench.verdict);
-            verdict.is_some_and(|v| v.is_unique())
-        };
-        // Nothing is unique of a reaction that this run does not have.
-        let known = |&k: &Option<usize>| k.map_or((0, false), |k| (k, is_unique(k)));
         Self {
             begun,
             t_state: f64::NAN,
             last: None,
-            reactions: begun.reactions.iter().map(known).collect(),
+            reactions: &begun.reactions,
             extremes: vec![Extreme::UNKNOWN; begun.reactions.len()],
         }
     }
@@ -165,8 +160,8 @@ impl<'s> Watch<'s> {
     /// Names of the joints and drives whose reactions are looked at.
     fn names(&self) -> Vec<String> {
         let groups = &self.mechanism().layout().groups;
-        let unique = self.reactions.iter().filter(|(_, is_unique)| *is_unique);
-        unique.map(|(k, _)| groups[*k].name.clone()).collect()
+        let known = self.reactions.iter().flatten();
+        known.map(|k| groups[*k].name.clone()).collect()
     }
 
     fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), MotionFault> {
@@ -178,12 +173,13 @@ impl<'s> Watch<'s> {
             }
             last => *last = Some((sample.q.to_vec(), sample.v.to_vec())),
         }
-        if !self.reactions.iter().any(|(_, is_unique)| *is_unique) {
+        if self.reactions.iter().flatten().next().is_none() {
             return Ok(());
         }
         let all = sample.reactions()?;
-        for ((k, is_unique), extreme) in self.reactions.iter().zip(&mut self.extremes) {
-            if *is_unique && let Some(reaction) = all.get(*k) {
+        let all = all.as_chosen();
+        for (k, extreme) in self.reactions.iter().zip(&mut self.extremes) {
+            if let Some(reaction) = k.and_then(|k| all.get(k)) {
                 let force = norm(&reaction.force);
                 extreme.include(sample.t, force, norm(&reaction.torque));
             }
@@ -203,6 +199,20 @@ impl<'s> Watch<'s> {
             }
             None => vec![f64::NAN; mechanism.space().columns().len() * bodies.len()],
         }
+    }
+
+    /// The extremes of what is unique on the whole run: another number depends on a choice.
+    fn determined(&self, summary: &Summary) -> Vec<Extreme> {
+        let is_unique = |k: usize| {
+            let own = summary.verdicts.as_ref();
+            own.is_some_and(|found| found.reactions[k].whole.of_run().is_unique())
+        };
+        let each = self.reactions.iter().zip(&self.extremes);
+        each.map(|(k, extreme)| match k {
+            Some(k) if is_unique(*k) => *extreme,
+            _ => Extreme::UNKNOWN,
+        })
+        .collect()
     }
 
     fn motion(self, summary: &Summary) -> SweepMotion {
@@ -237,7 +247,7 @@ impl<'s> Watch<'s> {
             fragile: *fragile,
             t_state: self.t_state,
             state: self.state(),
-            extremes: self.extremes,
+            extremes: self.determined(summary),
         }
     }
 }

@@ -52,7 +52,7 @@ impl Observation {
     pub(super) fn of(sample: &mut Sample<'_, '_>, space: SpaceKind) -> Result<Self, MotionFault> {
         let (a, reactions) = (sample.acceleration()?, sample.reactions()?);
         let [q, v] = [sample.q.to_vec(), sample.v.to_vec()];
-        Ok(Self::new(space, sample.t, [q, v, a], &reactions))
+        Ok(Self::new(space, sample.t, [q, v, a], reactions.as_chosen()))
     }
 
     /// Coordinates, velocities and accelerations at a time, with the reactions of all joints and

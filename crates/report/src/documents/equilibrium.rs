@@ -66,10 +66,10 @@ pub struct RestingBodyDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ReactionAtRestDocument {
-    /// Verdict, and the choice on which numbers depend that are not unique.
+    /// Its verdict and those of its components.
     #[serde(flatten)]
     pub verdict: RunReactionDocument,
-    /// Force and torque on the first body, by component (N, N·m).
+    /// Force and torque on the first body, by component (N, N·m); `null` if it is not determined.
     pub values: Named<f64>,
 }
 

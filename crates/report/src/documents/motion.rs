@@ -3,6 +3,7 @@
 
 use model::{FrameState, Mechanism, Reaction, System};
 use serde::Serialize;
+use solvability::{Chosen, Stretches};
 
 use super::{Named, RunDocument};
 
@@ -17,9 +18,20 @@ pub struct MotionDocument {
 }
 
 impl MotionDocument {
-    /// The document of a run with its rows.
+    /// The document of a run with its rows, whose numbers are those of one choice: those that are
+    /// not determined on their stretch are left out.
     #[must_use]
-    pub fn new(summary: RunDocument, rows: Vec<MomentDocument>) -> Self {
+    pub fn new(
+        summary: RunDocument,
+        mut rows: Vec<MomentDocument>,
+        mechanism: &Mechanism,
+        stretches: Option<&Stretches>,
+    ) -> Self {
+        if let Some(stretches) = stretches {
+            for row in &mut rows {
+                row.leave_out_choices(mechanism, stretches);
+            }
+        }
         Self { summary, rows }
     }
 }
@@ -40,7 +52,8 @@ pub struct MomentDocument {
     pub measures: Named<f64>,
     /// Force and torque on the first body of joints and drives, by name and in the order of their
     /// rows: `Fx`, `Fy` (N), `T` (N·m), and the named component of the definition, if it has one.
-    /// Values that were not computed are NaN, `null` in JSON.
+    /// Values that are not determined on their stretch, or were not computed, are NaN, `null` in
+    /// JSON.
     pub reactions: Named<Named<f64>>,
 }
 
@@ -59,6 +72,19 @@ fn state(of: &FrameState) -> Named<f64> {
 }
 
 impl MomentDocument {
+    /// Leaves out numbers that are not determined on their stretch.
+    fn leave_out_choices(&mut self, mechanism: &Mechanism, stretches: &Stretches) {
+        let ids = mechanism.layout().constraint_ids();
+        for (id, (_, numbers)) in ids.zip(&mut self.reactions.0) {
+            let own = &stretches.reactions[id.0];
+            for (name, number) in &mut numbers.0 {
+                if !own.determines(name, self.t) {
+                    *number = f64::NAN;
+                }
+            }
+        }
+    }
+
     /// State and reactions of a mechanism: q and v body by body, reactions of all joints and drives
     /// in the order of their rows.
     ///
@@ -70,7 +96,7 @@ impl MomentDocument {
         t: f64,
         q: &[f64],
         v: &[f64],
-        reactions: &[Reaction],
+        reactions: &Chosen<Reaction>,
     ) -> Self {
         let bodies = mechanism.bodies().iter().enumerate();
         let bodies =
@@ -81,7 +107,7 @@ impl MomentDocument {
             markers.map(|(k, m)| (m.name.clone(), state(&mechanism.frames().marker(k, q, v))));
         let measures = observed.measures.iter().enumerate();
         let measures = measures.map(|(k, m)| (m.name.clone(), mechanism.frames().measure(k, q, v)));
-        let groups = mechanism.layout().groups.iter().zip(reactions);
+        let groups = mechanism.layout().groups.iter().zip(reactions.as_chosen());
         let reactions = groups.map(|(group, reaction)| {
             let names = group.space.components().iter().copied();
             let names = names.chain(group.spec.component);

@@ -2,21 +2,17 @@
 
 use std::fmt;
 
-use dynamics::{
-    ComponentSummary, Event, EventKind, FORMULATION, MotionError, Plan, Prepared, RowChoice,
-    Summary,
-};
+use dynamics::{ComponentSummary, Event, FORMULATION, MotionError, Plan, Summary};
 use model::System;
 use model::codes::Code;
 use model::words::{listed, rounded};
 use serde::Serialize;
-use solvability::parts::parts;
-use solvability::{Freedoms, ONE_PART, ReactionVerdict, Sensitivities};
+use solvability::{Freedoms, ReactionVerdict, Sensitivities};
 
 use super::plan::{short, short_of};
 use super::{
-    DataDocument, FreedomsDocument, MisfitDocument, Named, SensitivityDocument, SpreadDocument,
-    VerdictDocument, from_one,
+    DataDocument, FreedomsDocument, MisfitDocument, Named, RunGroupDocument, RunReactionDocument,
+    RunVerdicts, SpecialDocument, SpreadDocument, from_one,
 };
 
 /// A run and its results.
@@ -32,6 +28,8 @@ pub struct Run<'a> {
     pub data: DataDocument,
     /// The possible motions at the start.
     pub freedoms: &'a Freedoms,
+    /// Verdicts and peaks of the run; `None` if no reactions were asked for.
+    pub verdicts: Option<RunVerdicts<'a>>,
     /// Numbers of the run.
     pub summary: &'a Summary,
     /// The same on other rows, if rows have missed.
@@ -113,8 +111,16 @@ pub struct RunDocument {
     pub spread: Option<SpreadDocument>,
     /// Events of the run.
     pub events: Vec<EventDocument>,
-    /// Verdict of every joint and drive at the start, by name.
+    /// Verdicts of every joint and drive, by name.
     pub reactions: Named<RunReactionDocument>,
+    /// Verdicts of the groups of the scene, by name.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub groups: Named<RunGroupDocument>,
+    /// Instants at which another verdict holds than on their stretch of the run.
+    pub special: Vec<SpecialDocument>,
+    /// The choices by which the numbers of `choice.csv` were made; empty if every number is
+    /// determined.
+    pub choice: Vec<ChoiceDocument>,
     /// Decisions before the run, in short.
     pub plan: Named<String>,
     /// Components that were run separately.
@@ -170,89 +176,41 @@ pub struct EventDocument {
     pub text: String,
 }
 
-/// The verdict of a reaction of a run.
+/// The choice by which the numbers of `choice.csv` were made, on an interval of time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct RunReactionDocument {
-    /// The verdict.
-    #[serde(flatten)]
-    pub verdict: VerdictDocument,
-    /// How strongly it depends on the data at the start.
-    #[serde(flatten)]
-    pub data: SensitivityDocument,
-    /// The choice on which its numbers depend if they are not unique.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub choice: Option<ChoiceDocument>,
-}
-
-/// The choice by which a non-unique reaction has a number.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(tag = "method", rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum ChoiceDocument {
-    /// The multipliers of some rows were set to zero.
-    KeptRows {
-        /// These rows.
-        deleted_rows: Vec<usize>,
-        /// Time from which other rows are deleted (s; see the events); absent if never.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        valid_until: Option<f64>,
-    },
+pub struct ChoiceDocument {
+    /// Time of its first row (s).
+    pub from: f64,
+    /// Time up to which it holds (s).
+    pub to: f64,
+    /// Its name: `kept-rows`, the multipliers of some rows were set to zero.
+    pub name: &'static str,
+    /// These rows.
+    pub deleted_rows: Vec<usize>,
 }
 
 impl ChoiceDocument {
-    /// The choice on which the reaction of a joint or drive depends: that of its component, if
-    /// there are several.
-    fn of(run: &Run<'_>, parts: Option<&[Vec<usize>]>, group: usize) -> Self {
-        let prepared = run.plan.prepared();
-        let components = &run.summary.components;
-        let own = components.iter().find(|c| c.places.groups.contains(&group));
-        let summary = own.map_or(run.summary, |component| &component.summary);
-        // Rows requested by the user are used for the reactions throughout, whatever rows the
-        // motion keeps.
-        let automatic = prepared.choice == RowChoice::Automatic;
-        let exchange = |e: &&Event| automatic && e.kind == EventKind::RowsExchanged;
-        let belongs = |row: &&usize| own.is_none_or(|c| c.places.rows.contains(row));
-        let dropped = match parts {
-            Some(parts) => parts[group].iter().filter(belongs),
-            None => prepared.decision.dropped.iter().filter(belongs),
-        };
-        Self::KeptRows {
-            deleted_rows: dropped.map(|row| row + 1).collect(),
-            valid_until: summary.events.iter().find(exchange).map(|e| e.time),
-        }
+    /// The choices of a run, in the order of time.
+    fn of(summary: &Summary) -> Vec<Self> {
+        let all = &summary.dropped;
+        let ends = all.iter().skip(1).map(|next| next.from).chain([summary.t]);
+        let each = all.iter().zip(ends);
+        each.map(|(dropped, to)| Self {
+            from: dropped.from,
+            to,
+            name: "kept-rows",
+            deleted_rows: from_one(&dropped.rows),
+        })
+        .collect()
     }
-}
-
-/// For each joint and drive of a large mechanism, the deleted rows on common cycles with it, from
-/// 0; no other rows affect its reaction.
-fn dropped_by_group(prepared: &Prepared) -> Option<Vec<Vec<usize>>> {
-    let (mechanism, layout) = (&prepared.mechanism, prepared.mechanism.layout());
-    if layout.rows() <= ONE_PART {
-        return None;
-    }
-    let mut s = mechanism.scratch();
-    mechanism.pose(0.0, &prepared.q, &mut s);
-    mechanism.c(&mut s);
-    let is_dropped = |row: &usize| prepared.decision.dropped.binary_search(row).is_ok();
-    let mut of_group = vec![Vec::new(); layout.groups.len()];
-    for part in parts(mechanism, &s) {
-        let rows = part.iter().flat_map(|&k| layout.groups[k].rows.clone());
-        let dropped: Vec<usize> = rows.filter(is_dropped).collect();
-        part.iter().for_each(|&k| of_group[k].clone_from(&dropped));
-    }
-    Some(of_group)
 }
 
 impl fmt::Display for ChoiceDocument {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::KeptRows { deleted_rows, .. } => {
-                let rows: Vec<String> = deleted_rows.iter().map(usize::to_string).collect();
-                let word = if rows.len() == 1 { "row" } else { "rows" };
-                write!(f, "kept-rows, {word} {} deleted", listed(&rows))
-            }
-        }
+        let rows: Vec<String> = self.deleted_rows.iter().map(usize::to_string).collect();
+        let word = if rows.len() == 1 { "row" } else { "rows" };
+        write!(f, "{}, {word} {} deleted", self.name, listed(&rows))
     }
 }
 
@@ -283,16 +241,17 @@ impl RunDocument {
             Ending::Interrupted => (Some(const { Code::new(8) }), None),
             Ending::Stopped(error) => (Some(error.code()), Some(error.to_string())),
         };
-        let parts = dropped_by_group(prepared);
+        let (mechanism, verdicts) = (&prepared.mechanism, run.verdicts.as_ref());
         let reactions = run.reactions.iter().map(|r| {
-            let is_unique = r.wrench.verdict.is_unique();
-            let document = RunReactionDocument {
-                verdict: (&r.wrench).into(),
-                data: SensitivityDocument::of(run.sensitivities, r.id, prepared.mechanism.layout()),
-                choice: (!is_unique).then(|| ChoiceDocument::of(run, parts.as_deref(), r.id.0)),
-            };
+            let document = RunReactionDocument::new(r, verdicts, run.sensitivities, mechanism);
             (r.name.clone(), document)
         });
+        let reactions = Named(reactions.collect());
+        let groups = verdicts.map_or_else(|| Named(Vec::new()), RunVerdicts::groups);
+        let is_open =
+            |r: &RunReactionDocument| r.of_run.as_ref().is_some_and(|v| v.verdict != "unique");
+        let has_choice = reactions.0.iter().any(|(_, r)| is_open(r))
+            || groups.0.iter().any(|(_, g)| g.of_run.verdict != "unique");
         Self {
             method: run.summary.method.name(),
             formulation: FORMULATION,
@@ -320,7 +279,14 @@ impl RunDocument {
             misfits: summary.misfits.iter().map(Into::into).collect(),
             spread: run.spread.cloned(),
             events: summary.events.iter().map(Into::into).collect(),
-            reactions: Named(reactions.collect()),
+            reactions,
+            groups,
+            special: verdicts.map_or_else(Vec::new, |v| v.special(mechanism.layout())),
+            choice: if has_choice {
+                ChoiceDocument::of(summary)
+            } else {
+                Vec::new()
+            },
             plan: short(run.plan),
             components: summary
                 .components

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use model::{Mechanism, SpaceKind, System};
+use model::{ConstraintId, Mechanism, SpaceKind, System};
 use serde::Serialize;
 
 use super::comparison::{Comparison, Freedom};
@@ -72,6 +72,9 @@ struct Component {
     name: &'static str,
     unit: &'static str,
     verdict: &'static str,
+    /// The intervals on which it is determined (s), where only some are.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    determined: Vec<[f64; 2]>,
 }
 
 #[derive(Serialize)]
@@ -211,64 +214,105 @@ fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
         .run()
         .and_then(|run| run.reactions.0.get(k))
         .map(|(_, r)| r);
-    let choice = of_run.and_then(|r| r.choice.as_ref().map(ToString::to_string));
     let verdict = of_run
-        .map(|r| r.verdict.verdict)
+        .map(|r| r.verdict())
         .or(of_analysis.map(|r| r.wrench.verdict))
         .unwrap_or("undecided");
-    let components = of_analysis.map_or_else(Vec::new, |r| {
-        let known = r.components.iter();
-        known
-            .map(|c| Component {
-                name: c.name,
-                unit: unit(group.space, c.name),
-                verdict: c.verdict.verdict,
-            })
-            .collect()
-    });
     let bodies = group.bodies.iter().map(|b| match b.moving() {
         None => "ground".to_owned(),
         Some(k) => page.mechanism.bodies()[k].name.clone(),
     });
-    // The document describes the start only.
-    let compared = page.comparisons.iter().any(|c| c.reactions.contains(&k));
-    let later = compared && verdict == "unique";
+    let id = ConstraintId(k);
+    let is_open = verdict != "unique";
     Joint {
         name: &group.name,
         kind: group.spec.common.scene_type,
         bodies: bodies.collect(),
-        verdict: if later { "not_unique" } else { verdict },
-        components,
-        explanation: if later {
-            Some("it is unique, but not at other times of this run")
-        } else {
-            of_analysis.and_then(|r| r.explanation.as_deref())
-        },
-        choice,
-        reaction: reaction(&page.recording.frames, k, group.space, noise),
+        verdict,
+        components: components(page, id),
+        explanation: of_analysis.and_then(|r| r.explanation.as_deref()),
+        choice: page.run().filter(|_| is_open).and_then(|run| {
+            let first = run.choice.first();
+            first.map(ToString::to_string)
+        }),
+        reaction: reaction(page, id, noise),
     }
 }
 
-fn reaction(frames: &[Frame], k: usize, space: SpaceKind, noise: f64) -> Option<Reaction> {
-    if !frames.iter().all(|f| f.reactions.len() > k) {
+/// The components of a reaction with their verdicts: of the run, or else at the start.
+fn components(page: &RunPage<'_>, id: ConstraintId) -> Vec<Component> {
+    let group = &page.mechanism.layout().groups[id.0];
+    if let Some(own) = page.stretches.and_then(|s| s.reactions.get(id.0)) {
+        let wrench = own.components.iter();
+        let wrench = wrench.filter(|(name, _)| group.space.component(name).is_some());
+        return wrench
+            .map(|(name, track)| Component {
+                name,
+                unit: unit(group.space, name),
+                verdict: track.of_run().word(),
+                determined: if track.of_run().is_unique() {
+                    Vec::new()
+                } else {
+                    track.determined()
+                },
+            })
+            .collect();
+    }
+    let at_start = page.analysis.and_then(|a| a.reactions.get(id.0));
+    let known = at_start.map_or(&[][..], |r| &r.components).iter();
+    known
+        .map(|c| Component {
+            name: c.name,
+            unit: unit(group.space, c.name),
+            verdict: c.verdict.verdict,
+            determined: Vec::new(),
+        })
+        .collect()
+}
+
+/// The reaction at the frames; what is not determined there is a gap.
+fn reaction(page: &RunPage<'_>, id: ConstraintId, noise: f64) -> Option<Reaction> {
+    let (frames, space) = (&page.recording.frames, page.mechanism.space());
+    if !frames.iter().all(|f| f.reactions.len() > id.0) {
         return None;
     }
+    let is_determined = |name: &str, t: f64| {
+        let own = page.stretches.and_then(|s| s.reactions.get(id.0));
+        own.is_none_or(|own| own.determines(name, t))
+    };
+    let determined = |name: &'static str, value: f64, t: f64| {
+        if is_determined(name, t) {
+            value
+        } else {
+            f64::NAN
+        }
+    };
     let all = frames.iter();
     let wrenches: Vec<Vec<f64>> = all
-        .map(|f| f.reactions[k].components(space).collect())
+        .map(|f| {
+            let names = space.components().iter();
+            let values = names.zip(f.reactions[id.0].components(space));
+            values.map(|(name, x)| determined(name, x, f.t)).collect()
+        })
         .collect();
-    let known = wrenches.iter().flatten().any(|x| x.is_finite());
+    let known = frames.iter().any(|f| {
+        let mut values = f.reactions[id.0].components(space);
+        values.any(f64::is_finite)
+    });
+    let named = page.mechanism.layout().groups[id.0].spec.component;
     known.then(|| Reaction {
         wrench: (0..space.n_v())
             .map(|c| Channel::above(noise, wrenches.iter().map(|wrench| wrench[c])))
             .collect(),
-        named: frames[0].reactions[k].component.map(|_| {
-            let named = frames.iter().map(|f| f.reactions[k].component);
-            Channel::above(noise, named.map(|x| x.unwrap_or(f64::NAN)))
+        named: named.map(|name| {
+            let values = frames.iter().map(|f| {
+                let value = f.reactions[id.0].component.unwrap_or(f64::NAN);
+                determined(name, value, f.t)
+            });
+            Channel::above(noise, values)
         }),
     })
 }
-
 /// A comparison as data; `None` if a joint of it is not drawn.
 fn comparison<'a>(
     c: &'a Comparison,

@@ -6,6 +6,7 @@ use model::{ConstraintId, Mechanism, Reaction, System};
 
 use super::run_page::RunPage;
 use super::{data, verdicts};
+use crate::documents::RunReactionDocument;
 use crate::page::{add, safe};
 use crate::recording::Frame;
 
@@ -70,53 +71,100 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
     let told = layout.constraint_ids().take(LINES);
     for id in told {
         let (name, document) = &run.reactions.0[id.0];
-        let later = page.comparisons.iter().any(|c| c.reactions.contains(&id.0));
-        let is_unique = document.verdict.verdict == "unique" && !later;
-        let choice = document.choice.as_ref().map(ToString::to_string);
-        let holds = match (is_unique, &choice) {
-            (true, _) => "every choice: it is unique".to_owned(),
-            (false, Some(choice)) => choice.clone(),
-            (false, None) => "not determined by the model".to_owned(),
-        };
-        let peaks = Peaks::of(frames, id, noise);
-        let shown = |peak: Option<Peak>| peak.filter(|_| is_unique || choice.is_some());
+        let is_unique = document.verdict() == "unique";
         let named = layout.groups[id.0].spec.component;
-        line(
-            out,
-            name,
-            [peaks.force, peaks.moment].map(shown),
-            (named, shown(peaks.named)),
-            &holds,
-        );
+        if is_unique {
+            let peaks = Peaks::of(frames, id, noise);
+            let component = (named, peaks.named);
+            let forces = [peaks.force, peaks.moment];
+            line(
+                out,
+                name,
+                forces,
+                &[component],
+                "every choice: it is unique",
+            );
+            continue;
+        }
+        // Components that are determined, each on its own intervals.
+        let determined = document.components.0.iter();
+        let determined: Vec<(Option<&str>, Option<Peak>)> = determined
+            .filter_map(|(name, number)| {
+                let peak = number.peak.as_ref()?;
+                let value = if peak.value.abs() <= noise {
+                    0.0
+                } else {
+                    peak.value
+                };
+                let peak = Peak {
+                    value,
+                    t: peak.time,
+                };
+                Some((Some(name.as_str()), Some(peak)))
+            })
+            .collect();
+        line(out, name, [None, None], &determined, &holds(document));
     }
     out.push_str("</tbody>\n</table></div>\n");
     notes(out, page.mechanism, page.recording.stride);
+}
+
+/// When the numbers of a reaction hold that is not unique over the run.
+fn holds(document: &RunReactionDocument) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    for (name, number) in &document.components.0 {
+        if number.of_run.verdict == "unique" {
+            parts.push(format!("{name} is determined"));
+        } else if !number.of_run.determined.is_empty() {
+            let intervals = number.of_run.determined.iter();
+            let intervals =
+                intervals.map(|[from, to]| format!("{} … {} s", digits(*from), digits(*to)));
+            let intervals: Vec<String> = intervals.collect();
+            parts.push(format!("{name} is determined on {}", intervals.join(", ")));
+        }
+    }
+    match parts.as_slice() {
+        [] => "not determined by the model".to_owned(),
+        parts => format!("{}; the rest is not determined", parts.join("; ")),
+    }
 }
 
 fn line(
     out: &mut String,
     name: &str,
     [force, moment]: [Option<Peak>; 2],
-    (named, component): (Option<&str>, Option<Peak>),
+    components: &[(Option<&str>, Option<Peak>)],
     holds: &str,
 ) {
-    let value = |label: &str, peak: Option<Peak>, prefix: &str| {
+    let value = |label: &str, peak: Option<Peak>| {
         let cell = |label: &str, told: Option<String>| match told {
             Some(told) => format!("<td class=\"number\" data-label=\"{label}\">{told}</td>"),
             None => format!("<td class=\"number none\" data-label=\"{label}\">–</td>"),
         };
-        let told = peak.map(|p| format!("{prefix}{}", digits(p.value)));
+        let told = peak.map(|p| digits(p.value));
         cell(label, told) + &cell("at (s)", peak.map(|p| digits(p.t)))
     };
-    let prefix = named.map(|n| format!("{} = ", safe(n))).unwrap_or_default();
+    let known = components.iter().filter_map(|(named, peak)| {
+        let prefix = named.map(|n| format!("{} = ", safe(n))).unwrap_or_default();
+        let peak = peak.as_ref()?;
+        Some((format!("{prefix}{}", digits(peak.value)), digits(peak.t)))
+    });
+    let (values, times): (Vec<String>, Vec<String>) = known.unzip();
+    let several = |label: &str, told: &[String]| {
+        let (class, told) = match told {
+            [] => ("number none", "–".to_owned()),
+            told => ("number", told.join("<br>")),
+        };
+        format!("<td class=\"{class}\" data-label=\"{label}\">{told}</td>")
+    };
     add(
         out,
         format_args!(
             "<tr><td><b>{}</b></td>{}{}{}<td class=\"why\" data-label=\"Holds for\">{}</td></tr>\n",
             safe(name),
-            value("Largest force (N)", force, ""),
-            value("Largest moment (N·m)", moment, ""),
-            value("Component", component, &prefix),
+            value("Largest force (N)", force),
+            value("Largest moment (N·m)", moment),
+            several("Component", &values) + &several("at (s)", &times),
             verdicts::marked(holds)
         ),
     );

@@ -1,6 +1,7 @@
 //! The contents of a page.
 
 use model::Mechanism;
+use solvability::Stretches;
 
 use super::comparison::Comparison;
 use crate::documents::{AnalysisDocument, FreedomsDocument, MakeUniqueDocument, RunDocument};
@@ -16,6 +17,8 @@ pub struct RunPage<'a> {
     pub hints: &'a [MakeUniqueDocument],
     /// What it shows.
     pub shows: Shows<'a>,
+    /// The verdicts of the run by stretches of time; `None` without a run or its reactions.
+    pub stretches: Option<&'a Stretches>,
     /// Its rows.
     pub recording: &'a Recording,
     /// Non-unique reactions for several choices.
@@ -89,12 +92,13 @@ impl RunPage<'_> {
         of_run.or(self.analysis.map(|a| &a.ranks.freedoms))
     }
 
-    /// Joints and drives at the start: name, verdict, and whether they are fragile.
+    /// Joints and drives: name, verdict of the run or else at the start, and whether they are
+    /// fragile.
     pub(super) fn verdicts(&self) -> Vec<(&str, &'static str, bool)> {
         match (self.run(), self.analysis) {
             (Some(run), _) => {
                 let all = run.reactions.0.iter();
-                all.map(|(name, r)| (name.as_str(), r.verdict.verdict, r.data.fragile))
+                all.map(|(name, r)| (name.as_str(), r.verdict(), r.data.fragile))
                     .collect()
             }
             (None, Some(a)) => {

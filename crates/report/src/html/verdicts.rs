@@ -2,7 +2,7 @@
 //! reactions unique. Static text, so that it is available without scripts and on paper.
 
 use super::run_page::RunPage;
-use crate::documents::{MakeUniqueDocument, ReactionDocument};
+use crate::documents::{MakeUniqueDocument, ReactionDocument, RunReactionDocument};
 use crate::page::{add, safe, short};
 
 /// Largest number of lines of a list.
@@ -15,11 +15,20 @@ const WAYS: usize = 5;
 const LINES: usize = 300;
 
 pub(super) fn section(out: &mut String, page: &RunPage<'_>) {
-    out.push_str("<section id=\"verdicts\" aria-labelledby=\"verdicts-title\">\n<h2 id=\"verdicts-title\">Verdicts at the start</h2>\n");
+    let title = match page.stretches {
+        Some(_) => "Verdicts",
+        None => "Verdicts at the start",
+    };
+    add(
+        out,
+        format_args!(
+            "<section id=\"verdicts\" aria-labelledby=\"verdicts-title\">\n<h2 id=\"verdicts-title\">{title}</h2>\n"
+        ),
+    );
     match page.analysis {
         Some(analysis) => {
             let told = selected(&analysis.reactions);
-            table(out, &told);
+            table(out, page, &told);
             if told.len() < analysis.reactions.len() {
                 let more = analysis.reactions.len() - told.len();
                 add(
@@ -47,7 +56,7 @@ fn selected(all: &[ReactionDocument]) -> Vec<&ReactionDocument> {
     open.into_iter().chain(unique).take(LINES).collect()
 }
 
-fn table(out: &mut String, reactions: &[&ReactionDocument]) {
+fn table(out: &mut String, page: &RunPage<'_>, reactions: &[&ReactionDocument]) {
     out.push_str(
         "<div class=\"wide tall\"><table>\n<thead><tr><th>Joint or drive</th><th>Type</th><th>Rows</th><th>Reaction</th>\
          <th>Margin</th><th>Why</th></tr></thead>\n<tbody>\n",
@@ -58,15 +67,18 @@ fn table(out: &mut String, reactions: &[&ReactionDocument]) {
             "unique" => "~0".to_owned(),
             _ => margin(r.wrench.margin),
         };
-        let said = if r.data.fragile {
+        let of_run = page.run().and_then(|run| run.reactions.get(&r.name));
+        let verdict = of_run.map_or(r.wrench.verdict, RunReactionDocument::verdict);
+        let is_fragile = r.data.fragile && verdict == "unique";
+        let said = if is_fragile {
             "unique, fragile".to_owned()
         } else {
-            r.wrench.verdict.replace('_', " ")
+            verdict.replace('_', " ")
         };
-        let badge = if r.data.fragile {
-            "fragile"
-        } else {
-            r.wrench.verdict
+        let badge = if is_fragile { "fragile" } else { verdict };
+        let why = match of_run {
+            Some(run) if verdict != r.wrench.verdict => over_the_run(r, run),
+            _ => reason(r),
         };
         add(
             out,
@@ -77,16 +89,30 @@ fn table(out: &mut String, reactions: &[&ReactionDocument]) {
                 safe(&r.name),
                 safe(r.kind),
                 rows.join(", "),
-                marked(&reason(r))
+                marked(&why)
             ),
         );
     }
     out.push_str("</tbody>\n</table></div>\n");
     out.push_str(
         "<p class=\"grey\">The margin tells how far a reaction is from unique: it is the norm of its part of the left null space of the \
-         constraint matrix, rows and columns equilibrated. Rows are counted from 1. Fx and Fy are global: where bodies turn, \
-         other components are determined later than at the start; the curves of a run say which.</p>\n",
+         constraint matrix at the start, rows and columns equilibrated. Rows are counted from 1. Fx and Fy are global: where bodies turn, \
+         other components are determined later than at the start. A verdict of a run holds on all of it.</p>\n",
     );
+}
+
+/// Why the verdict of the run is not that of the start.
+fn over_the_run(r: &ReactionDocument, run: &RunReactionDocument) -> String {
+    let start = r.wrench.verdict.replace('_', " ");
+    let on = run.of_run.iter().flat_map(|track| &track.determined);
+    let on: Vec<String> = on
+        .map(|[from, to]| format!("{} … {} s", short(*from), short(*to)))
+        .collect();
+    let determined = match on.as_slice() {
+        [] => String::new(),
+        on => format!("; it is determined on {}", on.join(", ")),
+    };
+    format!("at the start alone it is {start}{determined}")
 }
 
 fn reason(r: &ReactionDocument) -> String {

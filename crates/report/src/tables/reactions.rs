@@ -1,8 +1,11 @@
-//! `reactions.csv`: force and torque on the first body of joints and drives.
+//! `reactions.csv`: force and torque on the first body of joints and drives, and the numbers of
+//! groups. Which cells have a number is known when the run has ended: until then all numbers are
+//! those of one choice, which is the content of `choice.csv`.
 
-use std::io::Write;
+use std::io::{self, BufRead, Write};
 
-use model::{Mechanism, Reaction, SpaceKind, System};
+use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
+use solvability::{Chosen, Group, Stretches, VerdictTrack};
 
 use super::{Column, Table, TableError};
 
@@ -54,16 +57,106 @@ pub fn reaction_columns(mechanism: &Mechanism, place: usize) -> Vec<Column> {
         .collect()
 }
 
+/// What a column of reactions shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// A component of a joint or drive, or the named component of its definition.
+    Component(ConstraintId, &'static str),
+    /// A number of a group, by the place of the group.
+    Group(usize, &'static str),
+}
+
+impl Quantity {
+    /// The verdicts on it; `None` if it is zero under any load.
+    #[must_use]
+    pub fn verdicts<'s>(&self, stretches: &'s Stretches) -> Option<&'s VerdictTrack> {
+        match self {
+            Self::Component(id, name) => stretches.reactions.get(id.0)?.component(name),
+            Self::Group(k, name) => {
+                let numbers = &stretches.groups.get(*k)?.numbers;
+                let named = numbers.iter().find(|(known, _)| known == name);
+                named.map(|(_, track)| track)
+            }
+        }
+    }
+
+    /// Whether it is determined on the stretch that contains the time.
+    #[must_use]
+    pub fn is_determined(&self, stretches: &Stretches, t: f64) -> bool {
+        self.verdicts(stretches)
+            .is_none_or(|track| track.at(t).is_unique())
+    }
+}
+
+/// A column of reactions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReactionColumn {
+    /// Its name.
+    pub column: Column,
+    /// What it shows.
+    pub quantity: Quantity,
+    /// Whether the number is determined by the last digits of the data.
+    pub fragile: bool,
+}
+
+impl ReactionColumn {
+    /// Its name in tables.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let name = match (&self.quantity, self.column.number) {
+            (Quantity::Group(..), "sum") => self.column.owner.clone(),
+            _ => self.column.to_string(),
+        };
+        if self.fragile {
+            format!("{name}.fragile")
+        } else {
+            name
+        }
+    }
+}
+
+/// The columns of all selected joints and drives, then those of groups, given with their names.
+///
+/// # Errors
+/// [`TableError::UnknownReaction`]: a selected name does not exist.
+pub fn columns_of_reactions(
+    mechanism: &Mechanism,
+    selection: &Selection,
+    groups: &[(String, Group)],
+    is_fragile: impl Fn(ConstraintId, &str) -> bool,
+) -> Result<Vec<ReactionColumn>, TableError> {
+    let mut columns = Vec::new();
+    for k in selection.places(mechanism)? {
+        let id = ConstraintId(k);
+        let own = reaction_columns(mechanism, k).into_iter();
+        columns.extend(own.map(|column| ReactionColumn {
+            quantity: Quantity::Component(id, column.number),
+            fragile: is_fragile(id, column.number),
+            column,
+        }));
+    }
+    for (k, (name, group)) in groups.iter().enumerate() {
+        let numbers = group.number_names(mechanism.space()).iter();
+        columns.extend(numbers.map(|number| ReactionColumn {
+            column: Column {
+                owner: name.clone(),
+                kind: "group",
+                number,
+            },
+            quantity: Quantity::Group(k, number),
+            fragile: false,
+        }));
+    }
+    Ok(columns)
+}
+
 /// `t`, then for each joint and drive `<name>.Fx, .Fy, .T`, in space `.Fx, .Fy, .Fz, .Tx, .Ty,
 /// .Tz`, and the named component of its definition, if it has one: `.N` of a knife edge, `.drive`
-/// of a drive (s, N, N·m).
-///
-/// Numbers of non-unique reactions depend on the choice that `summary.json` states.
+/// of a drive (s, N, N·m); then the numbers of groups. All numbers are those of one choice.
 pub struct ReactionTable<W: Write> {
     table: Table<W>,
     n_reactions: usize,
-    /// Index of each written one, and whether it has a named component.
-    selected: Vec<(usize, bool)>,
+    columns: Vec<ReactionColumn>,
     /// One row, reused.
     values: Vec<f64>,
     space: SpaceKind,
@@ -73,53 +166,136 @@ impl<W: Write> ReactionTable<W> {
     /// Writes the header.
     ///
     /// # Errors
-    /// - [`TableError::UnknownReaction`]: a selected name does not exist; nothing is written.
     /// - [`TableError::Write`]: the writer failed.
-    pub fn new(out: W, mechanism: &Mechanism, selection: &Selection) -> Result<Self, TableError> {
-        let groups = &mechanism.layout().groups;
-        let places = selection.places(mechanism)?;
-        let mut header = vec!["t".to_owned()];
-        for &k in &places {
-            header.extend(reaction_columns(mechanism, k).iter().map(Column::to_string));
-        }
+    pub fn new(
+        name: &'static str,
+        out: W,
+        mechanism: &Mechanism,
+        columns: Vec<ReactionColumn>,
+    ) -> Result<Self, TableError> {
+        let header = header(&columns);
         Ok(Self {
-            table: Table::new("reactions.csv", out, &header)?,
-            n_reactions: groups.len(),
+            table: Table::new(name, out, &header)?,
+            n_reactions: mechanism.layout().groups.len(),
             space: mechanism.space(),
-            selected: places
-                .into_iter()
-                .map(|k| (k, groups[k].spec.component.is_some()))
-                .collect(),
             values: Vec::with_capacity(header.len()),
+            columns,
         })
     }
 
-    /// Writes the reactions at time t. `reactions` contains **all** joints and drives, in the order
-    /// of their rows; the table writes the selected ones.
+    /// Its columns, without `t`.
+    #[must_use]
+    pub fn columns(&self) -> &[ReactionColumn] {
+        &self.columns
+    }
+
+    /// Writes the reactions at time t and returns the numbers of the row, without t. `reactions`
+    /// contains **all** joints and drives, in the order of their rows; the table writes the
+    /// selected ones. `groups` contains all numbers of all groups.
     ///
     /// # Errors
-    /// - [`TableError::Length`]: the reactions belong to another mechanism; nothing is written.
+    /// - [`TableError::Length`]: the numbers belong to another mechanism; nothing is written.
     /// - [`TableError::Write`]: the writer failed.
-    pub fn row(&mut self, t: f64, reactions: &[Reaction]) -> Result<(), TableError> {
+    pub fn row(
+        &mut self,
+        t: f64,
+        reactions: &Chosen<Reaction>,
+        groups: &Chosen<f64>,
+    ) -> Result<&[f64], TableError> {
+        let reactions = reactions.as_chosen();
         self.table
             .check_length(t, "reactions", reactions.len(), self.n_reactions)?;
         self.values.clear();
         self.values.push(t);
-        for &(k, has_component) in &self.selected {
-            let r = &reactions[k];
-            self.values.extend(r.components(self.space));
-            if has_component {
-                self.values.push(r.component.unwrap_or(f64::NAN));
-            }
+        let mut of_groups = groups.as_chosen().iter();
+        for column in &self.columns {
+            let value = match column.quantity {
+                Quantity::Component(id, name) => component(&reactions[id.0], self.space, name),
+                Quantity::Group(..) => of_groups.next().copied().unwrap_or(f64::NAN),
+            };
+            self.values.push(value);
         }
-        self.table.row(&self.values)
+        self.table.row_with_gaps(&self.values)?;
+        Ok(&self.values[1..])
     }
 
-    /// Writes the buffer and returns the writer.
+    /// Writes the buffer and returns the writer with the columns.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
-    pub fn finish(self) -> Result<W, TableError> {
-        self.table.finish()
+    pub fn finish(self) -> Result<(W, Vec<ReactionColumn>), TableError> {
+        Ok((self.table.finish()?, self.columns))
+    }
+}
+
+/// A component of a reaction by its name; NaN if there is none.
+fn component(reaction: &Reaction, space: SpaceKind, name: &str) -> f64 {
+    match space.component(name) {
+        Some(k) => reaction.components(space).nth(k).unwrap_or(f64::NAN),
+        None => reaction.component.unwrap_or(f64::NAN),
+    }
+}
+
+fn header(columns: &[ReactionColumn]) -> Vec<String> {
+    let names = columns.iter().map(ReactionColumn::name);
+    std::iter::once("t".to_owned()).chain(names).collect()
+}
+
+/// Copies a table of all numbers and leaves out those that are not determined on their stretch, and
+/// those that do not exist. Returns whether a cell is empty.
+///
+/// # Errors
+/// [`TableError::Write`]: reading or writing failed.
+pub fn write_determined(
+    all: impl BufRead,
+    out: impl Write,
+    columns: &[ReactionColumn],
+    stretches: &Stretches,
+) -> Result<bool, TableError> {
+    let mut out = io::BufWriter::new(out);
+    let copied = copy_determined(all, &mut out, columns, stretches);
+    let copied = copied.and_then(|empty| out.flush().map(|()| empty));
+    copied.map_err(|source| TableError::Write {
+        table: "reactions.csv",
+        source,
+    })
+}
+
+fn copy_determined(
+    mut all: impl BufRead,
+    out: &mut impl Write,
+    columns: &[ReactionColumn],
+    stretches: &Stretches,
+) -> io::Result<bool> {
+    let tracks: Vec<Option<&VerdictTrack>> = columns
+        .iter()
+        .map(|c| c.quantity.verdicts(stretches))
+        .collect();
+    let mut line = String::new();
+    let mut has_empty = false;
+    let mut is_header = true;
+    loop {
+        line.clear();
+        if all.read_line(&mut line)? == 0 {
+            return Ok(has_empty);
+        }
+        if std::mem::take(&mut is_header) {
+            out.write_all(line.as_bytes())?;
+            continue;
+        }
+        let mut cells = line.trim_end_matches('\n').split(',');
+        let time = cells.next().unwrap_or_default();
+        out.write_all(time.as_bytes())?;
+        let t: f64 = time.parse().unwrap_or(f64::NAN);
+        for (cell, track) in cells.zip(&tracks) {
+            let is_determined = track.is_none_or(|track| track.at(t).is_unique());
+            out.write_all(b",")?;
+            if is_determined {
+                out.write_all(cell.as_bytes())?;
+            } else {
+                has_empty = true;
+            }
+        }
+        out.write_all(b"\n")?;
     }
 }

@@ -2,9 +2,14 @@
 
 use joints::plane::Direction;
 use joints::{KnifeEdge, Revolute, RevoluteAngleDrive};
-use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, Reaction};
+use model::{
+    Body, BodyRef, ConstraintId, Description, Drive, Function, Joint, Mechanism, Reaction,
+};
+use solvability::{Chosen, Group, Stretches, Term, Verdict, VerdictStretch, VerdictTrack};
 
-use super::{ReactionTable, Selection, TableError, TrajectoryTable};
+use super::{
+    ReactionTable, Selection, TableError, TrajectoryTable, columns_of_reactions, write_determined,
+};
 
 /// A driven wheel carrier with a knife edge, and names that need quotes.
 fn carrier() -> Mechanism {
@@ -39,6 +44,20 @@ fn carrier() -> Mechanism {
     Mechanism::build(&description).expect("the carrier builds")
 }
 
+/// A table of all numbers of these reactions.
+fn table(mechanism: &Mechanism, selection: &Selection) -> ReactionTable<Vec<u8>> {
+    let columns = columns_of_reactions(mechanism, selection, &[], |_, _| false).expect("exist");
+    ReactionTable::new("choice.csv", Vec::new(), mechanism, columns).expect("writes")
+}
+
+/// A row without groups, as it is written.
+fn written(mut table: ReactionTable<Vec<u8>>, t: f64) -> String {
+    let none = Chosen::new(Vec::new(), Vec::new());
+    let row = Chosen::new(reactions().to_vec(), Vec::new());
+    table.row(t, &row, &none).expect("writes");
+    text(table.finish().expect("writes").0)
+}
+
 fn text(bytes: Vec<u8>) -> String {
     String::from_utf8(bytes).expect("CSV is UTF-8")
 }
@@ -68,28 +87,65 @@ fn reactions() -> [Reaction; 3] {
 
 #[test]
 fn reactions_have_the_header_of_the_contract() {
-    let mut table = ReactionTable::new(Vec::new(), &carrier(), &Selection::All).expect("writes");
-    table.row(0.25, &reactions()).expect("writes");
+    let table = table(&carrier(), &Selection::All);
     let expected = "t,pin.Fx,pin.Fy,pin.T,motor.Fx,motor.Fy,motor.T,motor.drive,\
                     blade.Fx,blade.Fy,blade.T,blade.N\n\
                     0.25,1.0,0.5,-1.0,2.0,0.5,-2.0,7.0,3.0,0.5,-3.0,8.0\n";
-    assert_eq!(text(table.finish().expect("writes")), expected);
+    assert_eq!(written(table, 0.25), expected);
+}
+
+/// A cell has a number where the component is determined on the stretch that contains the time; a
+/// row on a cut belongs to the stretch that begins there. A fragile column says so, and sums follow.
+#[test]
+fn cells_are_empty_where_nothing_is_determined() {
+    let carrier = carrier();
+    let blade = ConstraintId(2);
+    let term = |component: &str| Term {
+        reaction: blade,
+        component: component.into(),
+        coefficient: 2.0,
+    };
+    let groups = [("twice".to_owned(), Group::Combination(vec![term("N")]))];
+    let only = Selection::Names(vec!["blade".into()]);
+    let is_fragile = |_, name: &str| name == "Fy";
+    let columns = columns_of_reactions(&carrier, &only, &groups, is_fragile).expect("exist");
+    let mut table =
+        ReactionTable::new("choice.csv", Vec::new(), &carrier, columns).expect("writes");
+    let row = Chosen::new(reactions().to_vec(), vec![1]);
+    for (t, sum) in [(0.0, 16.0), (1.0, f64::NAN), (2.0, 17.0)] {
+        let sum = Chosen::new(vec![sum], vec![1]);
+        table.row(t, &row, &sum).expect("writes");
+    }
+    let (all, columns) = table.finish().expect("writes");
+    let stretch = |from, to, verdict| VerdictStretch { from, to, verdict };
+    let mut stretches = Stretches::unique(&carrier, [0.0, 2.0], &[groups[0].1.clone()]);
+    stretches.reactions[2].components[0].1 = VerdictTrack::of([
+        stretch(0.0, 1.0, Verdict::NotUnique),
+        stretch(1.0, 2.0, Verdict::Unique),
+    ]);
+    let mut determined = Vec::new();
+    let has_empty = write_determined(&all[..], &mut determined, &columns, &stretches);
+    assert!(has_empty.expect("writes"));
+    let expected = "t,blade.Fx,blade.Fy.fragile,blade.T,blade.N,twice\n\
+                    0.0,,0.5,-3.0,8.0,16.0\n\
+                    1.0,3.0,0.5,-3.0,8.0,\n\
+                    2.0,3.0,0.5,-3.0,8.0,17.0\n";
+    assert_eq!(text(determined), expected);
 }
 
 #[test]
 fn selected_reactions_keep_the_order_of_rows() {
     let names = Selection::Names(vec!["blade".into(), "pin".into(), "pin".into()]);
-    let mut table = ReactionTable::new(Vec::new(), &carrier(), &names).expect("writes");
-    table.row(0.0, &reactions()).expect("writes");
+    let table = table(&carrier(), &names);
     let expected = "t,pin.Fx,pin.Fy,pin.T,blade.Fx,blade.Fy,blade.T,blade.N\n\
                     0.0,1.0,0.5,-1.0,3.0,0.5,-3.0,8.0\n";
-    assert_eq!(text(table.finish().expect("writes")), expected);
+    assert_eq!(written(table, 0.0), expected);
 }
 
 #[test]
 fn unknown_names_and_foreign_rows_are_refused() {
     let names = Selection::Names(vec!["pin".into(), "wheel".into()]);
-    let Err(error) = ReactionTable::new(Vec::new(), &carrier(), &names) else {
+    let Err(error) = columns_of_reactions(&carrier(), &names, &[], |_, _| false) else {
         panic!("there is no `wheel`");
     };
     assert_eq!(

@@ -75,7 +75,11 @@ impl<'a> Configuration<'a> {
         let c = dimensionless(&mechanism, &s, size);
         Ok(Self {
             uncertainty: uncertainty(&mechanism, &s, size),
-            reactions: ReactionForms { mechanism, s, size },
+            reactions: ReactionForms {
+                mechanism,
+                s: Cow::Owned(s),
+                size,
+            },
             solvability: Solvability::from_decision(&c, decision.clone()),
         })
     }

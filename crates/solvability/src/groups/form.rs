@@ -135,14 +135,24 @@ impl LinearForm {
                 expected: m,
             });
         }
+        let all: Vec<usize> = (0..m).collect();
+        Ok(solvability.component(&self.map_of(&all), 0, all)?)
+    }
+
+    /// The part of the form that belongs to these rows, as the first row of a map. A component is
+    /// compared with the largest row of its map; the second row holds the sizes.
+    pub(crate) fn map_of(&self, rows: &[usize]) -> Matrix {
         let largest = match self.sizes.iter().fold(0.0, |a: f64, &b| a.max(b)) {
             0.0 => 1.0,
             largest => largest,
         };
-        // A component is compared with the largest row of its map; here that row holds the sizes.
-        let rows = [&self.coefficients, &self.sizes];
-        let map = Matrix::from_fn(rows.len(), m, |k, i| rows[k][i] / largest);
-        Ok(solvability.component(&map, 0, 0..m)?)
+        let both = [&self.coefficients, &self.sizes];
+        Matrix::from_fn(both.len(), rows.len(), |k, i| both[k][rows[i]] / largest)
+    }
+
+    /// Whether a term belongs to this row.
+    pub(crate) fn has_term(&self, row: usize) -> bool {
+        self.sizes[row] != 0.0
     }
 
     /// `ℓᵀ·Ẑ / ‖sizes‖` for an orthonormal basis Ẑ of the left null space of the equilibrated

@@ -1,6 +1,6 @@
 //! Groups of reactions that the user defines.
 
-use model::ConstraintId;
+use model::{ConstraintId, SpaceKind};
 
 use super::error::RequestError;
 
@@ -37,3 +37,51 @@ pub struct Term {
 pub(crate) const NO_REACTION: RequestError = RequestError::Empty {
     of: "joint or drive",
 };
+
+impl Group {
+    /// The names of its numbers: `sum`, or the components of a wrench. Several separate reactions
+    /// have none.
+    #[must_use]
+    pub fn number_names(&self, space: SpaceKind) -> &'static [&'static str] {
+        match self {
+            Self::Members(_) | Self::OneJoint(_) => &[],
+            Self::Combination(_) => &["sum"],
+            Self::WrenchSum(_) | Self::Resultant(_) => space.components(),
+        }
+    }
+
+    /// The part of the group that belongs to some of the joints and drives, in numbers of theirs;
+    /// `None` if there is none.
+    #[must_use]
+    pub fn share(&self, own: impl Fn(ConstraintId) -> Option<ConstraintId>) -> Option<Self> {
+        let ids = |ids: &[ConstraintId]| ids.iter().filter_map(|&id| own(id)).collect::<Vec<_>>();
+        let share = match self {
+            Self::Members(members) => Self::Members(ids(members)),
+            Self::OneJoint(members) => Self::OneJoint(ids(members)),
+            Self::Combination(terms) => {
+                let term = |term: &Term| {
+                    Some(Term {
+                        reaction: own(term.reaction)?,
+                        ..term.clone()
+                    })
+                };
+                Self::Combination(terms.iter().filter_map(term).collect())
+            }
+            Self::WrenchSum(terms) => {
+                let terms = terms.iter();
+                Self::WrenchSum(terms.filter_map(|&(c, id)| Some((c, own(id)?))).collect())
+            }
+            Self::Resultant(_) => return None,
+        };
+        (!share.is_empty()).then_some(share)
+    }
+
+    fn is_empty(&self) -> bool {
+        match self {
+            Self::Members(all) | Self::OneJoint(all) => all.is_empty(),
+            Self::Combination(terms) => terms.is_empty(),
+            Self::WrenchSum(terms) => terms.is_empty(),
+            Self::Resultant(bodies) => bodies.is_empty(),
+        }
+    }
+}

@@ -14,12 +14,21 @@ use super::group::{Group, NO_REACTION, Term};
 /// A mechanism at a pose, from which the linear forms of its reactions are computed.
 pub struct ReactionForms<'a> {
     pub(crate) mechanism: Cow<'a, Mechanism>,
-    pub(crate) s: Scratch,
+    pub(crate) s: Cow<'a, Scratch>,
     /// Length by which torques are divided for comparison with forces (m).
     pub(crate) size: f64,
 }
 
-impl ReactionForms<'_> {
+impl<'a> ReactionForms<'a> {
+    /// Those at the pose of a scratch, for a mechanism of this size.
+    pub(crate) fn at(mechanism: &'a Mechanism, s: &'a Scratch, size: f64) -> Self {
+        Self {
+            mechanism: Cow::Borrowed(mechanism),
+            s: Cow::Borrowed(s),
+            size,
+        }
+    }
+
     /// The origin of a body's frame, global components (m).
     ///
     /// # Errors

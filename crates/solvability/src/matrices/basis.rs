@@ -138,6 +138,20 @@ impl Basis {
         Mapped::new(self, map, self.list(rows)?)
     }
 
+    /// Whether no dependency reaches these rows: then all that follows from their multipliers is
+    /// unique.
+    pub(crate) fn is_free_of(&self, rows: &[usize]) -> bool {
+        let size = rows.iter().map(|&i| norm(self.z.row(i)));
+        let size = size.fold(0.0, f64::hypot);
+        let noise = rows.iter().map(|&i| self.known.row_noise[i]);
+        let (least, most) = noise.fold((f64::INFINITY, 0.0_f64), |(least, most), noise| {
+            (least.min(noise), most.max(noise))
+        });
+        let reading = self.known.readings.read(size, most);
+        let is_known = self.exact.is_none() && self.known.status == RankStatus::Decided;
+        is_known && size <= least && reading == CoefficientReading::Zero
+    }
+
     /// The rank of some of the rows, ascending, from the dependencies of all: those that need no
     /// other row, `z = 0` there, are as many as `p − rank Z_other`. `None` if the rank of all is
     /// undecided, or that of Z_other unclear.

@@ -7,7 +7,8 @@ use pfaff::Study;
 use pfaff::dynamics::{Misfit, Sample, Stabilisation};
 use pfaff::model::start::scene_size;
 use pfaff::model::{Mechanism, Scratch, System};
-use pfaff::report::{ReactionTable, Selection, TrajectoryTable};
+use pfaff::report::{ReactionTable, Selection, TrajectoryTable, columns_of_reactions};
+use pfaff::solvability::Chosen;
 
 use super::reach::{ROWS, Reach, STEPS, named};
 
@@ -39,8 +40,11 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
     let mechanism = &study.prepared.mechanism;
     let mut trajectory =
         TrajectoryTable::new(Vec::new(), mechanism).expect("a vector takes everything");
-    let mut reactions = ReactionTable::new(Vec::new(), mechanism, &Selection::All)
+    let columns = columns_of_reactions(mechanism, &Selection::All, &[], |_, _| false);
+    let columns = columns.expect("all of them");
+    let mut reactions = ReactionTable::new("choice.csv", Vec::new(), mechanism, columns)
         .expect("a vector takes everything");
+    let no_groups = Chosen::new(Vec::new(), Vec::new());
     let mut checked = Rows {
         mechanism,
         scratch: mechanism.scratch(),
@@ -68,7 +72,7 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
             .expect("a vector takes everything");
         let forces = sample.reactions()?;
         reactions
-            .row(sample.t, &forces)
+            .row(sample.t, &forces, &no_groups)
             .expect("a vector takes everything");
         with_reactions += 1;
         Ok(if rows < ROWS {
@@ -82,7 +86,7 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
         rows,
         "trajectory",
     );
-    let written = reactions.finish().expect("a vector takes everything");
+    let (written, _) = reactions.finish().expect("a vector takes everything");
     readable(written, with_reactions, "reactions");
     // Only the last row of a run may lack reactions.
     assert!(

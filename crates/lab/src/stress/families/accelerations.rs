@@ -15,6 +15,7 @@ use crate::stress::motion::prepared;
 use exact::solve;
 use scenes::{Scene, scenes};
 use score::Errors;
+use solvability::Chosen;
 
 /// Masses from 1e-24 to 1e24 and lengths from 1e-12 to 1e12.
 pub(super) const FAMILY: Family = Family {
@@ -100,7 +101,8 @@ fn errors(description: &Description) -> Result<Errors, Outcome> {
     let prepared = prepared(description)?;
     let mut motion = KeptRowMotion::new(&prepared).map_err(Outcome::refused)?;
     let layout = prepared.mechanism.layout();
-    let (mut a, mut lambda) = (vec![f64::NAN; layout.n_v], vec![f64::NAN; layout.rows()]);
+    let mut a = vec![f64::NAN; layout.n_v];
+    let mut lambda = Chosen::new(vec![f64::NAN; layout.rows()], Vec::new());
     let (q, v) = (&prepared.q, &prepared.v);
     let solved = motion
         .acceleration(0.0, q, v, &mut a)
@@ -115,7 +117,12 @@ fn errors(description: &Description) -> Result<Errors, Outcome> {
     let exact = solve(prepared.mechanism.mass(), &rows, &s.force, &gamma).map_err(|why| {
         Outcome::fact(false, format!("the exact equations are singular: {why:?}"))
     })?;
-    Ok(score::errors(&prepared, &motion, (&a, &lambda), &exact))
+    Ok(score::errors(
+        &prepared,
+        &motion,
+        (&a, lambda.as_chosen()),
+        &exact,
+    ))
 }
 
 #[cfg(test)]

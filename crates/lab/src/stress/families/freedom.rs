@@ -75,7 +75,7 @@ fn torque(prepared: &Prepared, options: &MotionOptions) -> Outcome {
         let right = (INERTIA + MASS * ARM * ARM) * alpha + MASS * GRAVITY * ARM * angle.cos();
         // Motors act on the crank, which is their second body.
         let multipliers = row.multipliers()?;
-        let found: f64 = -multipliers[2..].iter().sum::<f64>();
+        let found: f64 = -multipliers.as_chosen()[2..].iter().sum::<f64>();
         errors.push((row.q[2] - angle) / SWING);
         errors.push((row.v[2] - omega) / (SWING * RATE));
         errors.push((found - right) / (MASS * GRAVITY * ARM));

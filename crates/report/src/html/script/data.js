@@ -100,14 +100,18 @@ for (const comparison of data.comparisons) {
 }
 
 /**
- * The verdict of a component along the run. Where choices were compared they tell; the verdicts of the analysis are those of the start, and
- * a component in global directions may be determined there only.
+ * The verdict of a component: of the run, or at the start alone. A component that is not listed is zero under any load. Components along the
+ * axes of a body are judged where choices were compared.
  */
 function verdictOf(joint, name, inBody = false) {
-  const place = COMPONENTS.indexOf(name);
-  if (joint.freedom) return joint.freedom[inBody ? "in_body" : "components"][place] ? "not_unique" : "unique";
-  return joint.verdict === "unique" ? "unique" : joint.verdict;
+  if (joint.verdict === "unique") return "unique";
+  if (inBody && joint.freedom) return joint.freedom.in_body[COMPONENTS.indexOf(name)] ? "not_unique" : "unique";
+  if (inBody) return joint.verdict;
+  return joint.components.find((c) => c.name === name)?.verdict ?? "unique";
 }
+
+/** The numbers of one choice, where there are any; otherwise those that are determined. */
+const chosenWrench = (joint) => joint.choices[0]?.wrench ?? joint.wrench;
 
 /** Smallest and largest finite values of several curves; nothing if there are none. */
 function rangeOf(curves) {

@@ -72,13 +72,14 @@ function paintLoads(picture, site, { place, from, to }) {
 
 /** The part of a reaction that no choice changes; zero where nothing is known. */
 function determined(joint, instant) {
-  const values = joint.wrench.map((w) => linear(w, instant));
+  const at = (curves) => curves.map((w) => linear(w, instant));
+  const values = at(joint.wrench);
   if (joint.verdict === "unique") return values;
-  if (view) return values.map((x, k) => (verdictOf(joint, COMPONENTS[k]) === "unique" ? x : 0));
   const { freedom } = joint;
-  if (!freedom) return [0, 0, 0];
-  const [fx, fy, m] = values;
-  const known = verdictOf(joint, "T") === "unique" ? m : 0;
+  if (view || !freedom) return values.map((x) => (Number.isFinite(x) ? x : 0));
+  // In the plane the part across the free direction is determined, whatever the axes.
+  const [fx, fy] = at(chosenWrench(joint));
+  const known = Number.isFinite(values[2]) ? values[2] : 0;
   const angle = linear(freedom.angle, instant);
   if (freedom.plane) return [0, 0, known];
   if (Number.isNaN(angle)) return [fx, fy, known];

@@ -284,7 +284,14 @@ function reactionInWords(joint) {
   const compared = joint.choices.length
     ? " Bands reach from the smallest to the largest value of the choices compared; other choices leave them."
     : " No choices were compared for it, so components that are not unique have no curve.";
-  return `${on}${why}${compared}`;
+  return `${on}${why}${determinedInWords(joint)}${compared}`;
+}
+
+/** Components that are determined on some intervals only. */
+function determinedInWords(joint) {
+  const some = joint.components.filter((c) => c.determined?.length);
+  const on = (c) => c.determined.map(([from, to]) => `${spoken(from)} … ${spoken(to)} s`).join(", ");
+  return some.length ? ` Determined on parts of the run: ${some.map((c) => `${c.name} on ${on(c)}`).join("; ")}.` : "";
 }
 
 /** A wrench along the axes of a body. */
@@ -313,14 +320,17 @@ function showComponent(chart, joint, name, k, { large, frame }) {
   const known = inBody ? loads : joint.components.some((c) => c.name === name);
   const verdict = verdictOf(joint, name, inBody);
   const determined = verdict === "unique";
-  const present = known && (determined || joint.choices.length > 0);
+  const source = inBody && joint.verdict !== "unique" ? chosenWrench(joint) : joint.wrench;
+  const own = wrenchOf(source);
+  const partly = !inBody && !determined && own.some(Number.isFinite);
+  const present = known && (determined || partly || joint.choices.length > 0);
   chart.figure.hidden = !present;
   if (!present) return;
   // The curves of the page are rounded: turned, what is zero shows that rounding, which no axis should fill.
   const floor = (inBody ? 0.02 : 1e-9) * large;
   const options = { title: inBody ? `${joint.name}, ${unit === "N" ? "force along" : "torque about"} ${"xyz"[k % FORCES]} of ${joint.bodies[0]}` : `${joint.name}.${name}`, unit, badge: verdict, floor, legend: false };
   if (determined) {
-    chart.show([{ label: `${name}, unique`, values: wrenchOf(joint.wrench), colour: 0 }], options);
+    chart.show([{ label: `${name}, unique`, values: own, colour: 0 }], options);
     return;
   }
   const curves = joint.choices.map((choice) => wrenchOf(choice.wrench));
@@ -330,6 +340,7 @@ function showComponent(chart, joint, name, k, { large, frame }) {
   });
   const band = { low: at(Math.min), high: at(Math.max), label: "range of the choices compared" };
   const series = joint.choices.map((choice, place) => choiceSeries(choice, place, curves[place]));
+  if (partly) series.unshift({ label: `${name}, where it is determined`, values: own, colour: 0 });
   chart.show(series, { ...options, band });
 }
 

@@ -1,0 +1,144 @@
+//! The verdicts of a run: at accepted steps and written rows they are read from the rows that are
+//! factored there.
+
+use model::System;
+use solvability::{CarriedState, CarriedVerdicts, Group, Looked, Stretches};
+
+use super::summary::DroppedRows;
+use crate::error::MotionFault;
+use crate::motion::KeptRowMotion;
+use crate::options::MotionOptions;
+use crate::prepare::Prepared;
+
+/// What is noted of the verdicts of a run.
+pub(super) struct RunVerdicts<'m> {
+    /// `None` if no row is dropped: everything is unique.
+    carried: Option<CarriedVerdicts<'m>>,
+    /// Storage for dependencies.
+    dependencies: Vec<Vec<f64>>,
+    /// The rows without multiplier at rows of output.
+    dropped: Vec<DroppedRows>,
+    /// The last event, break or begin (s).
+    last_cut: f64,
+}
+
+impl<'m> RunVerdicts<'m> {
+    /// For a run on these rows.
+    pub(super) fn new(
+        motion: &KeptRowMotion<'m>,
+        prepared: &Prepared,
+        options: &MotionOptions,
+        groups: &[Group],
+    ) -> Self {
+        let mechanism = motion.mechanism();
+        let dropped = &prepared.decision.dropped;
+        let start = (0.0, prepared.q.as_slice());
+        Self {
+            carried: CarriedVerdicts::new(mechanism, start, dropped, options.rtol, groups),
+            dependencies: Vec::new(),
+            dropped: Vec::new(),
+            last_cut: 0.0,
+        }
+    }
+
+    /// Whether there is anything that could change on the way.
+    pub(super) fn may_change(&self) -> bool {
+        self.carried.is_some()
+    }
+
+    /// Reads the verdicts at a row of output, and takes note of its rows without multiplier.
+    pub(super) fn look_at_row(
+        &mut self,
+        motion: &mut KeptRowMotion<'_>,
+        state: (f64, f64, &[f64]),
+        is_factored: bool,
+    ) -> Result<(), MotionFault> {
+        self.note_row(motion, state.0);
+        self.look(motion, state, is_factored, Looked::Next)
+    }
+
+    /// Reads the verdicts at a state: its time, the time at which functions are evaluated, and its
+    /// coordinates. `is_factored` states whether the rows are factored there.
+    pub(super) fn look(
+        &mut self,
+        motion: &mut KeptRowMotion<'_>,
+        (t, t_before, q): (f64, f64, &[f64]),
+        is_factored: bool,
+        looked: Looked,
+    ) -> Result<(), MotionFault> {
+        let Some(carried) = &mut self.carried else {
+            return Ok(());
+        };
+        let (equations, blind) = (&mut motion.equations, motion.watch.blind());
+        if !is_factored {
+            equations.factor_at(t_before, q)?;
+        }
+        let (at, rows) = (&equations.at, &mut equations.velocity);
+        if rows.n_left_out() > 0 || rows.relative_pivot() < blind {
+            carried.pass(t, looked);
+            return Ok(());
+        }
+        rows.dependencies(at, &mut self.dependencies)?;
+        let state = CarriedState {
+            t,
+            q,
+            scratch: &at.s,
+            dependencies: &self.dependencies,
+        };
+        carried.look(&state, looked);
+        Ok(())
+    }
+
+    /// Takes note of the rows without multiplier at a row of output.
+    fn note_row(&mut self, motion: &KeptRowMotion<'_>, t: f64) {
+        let dropped = motion.equations.without_multiplier();
+        if self.dropped.last().is_none_or(|last| last.rows != *dropped) {
+            self.dropped.push(DroppedRows {
+                from: t,
+                rows: dropped.to_vec(),
+            });
+        }
+    }
+
+    /// Begins stretches at events within a step, given in the order of time, and after it if
+    /// `ends_there`. Returns times between two cuts between which nothing else is looked at.
+    pub(super) fn cut(&mut self, events: &[f64], [t0, t1]: [f64; 2], ends_there: bool) -> Vec<f64> {
+        let Some(carried) = &mut self.carried else {
+            return Vec::new();
+        };
+        let mut cuts = Vec::new();
+        if self.last_cut >= t0 && carried.is_blank_since(self.last_cut) {
+            cuts.push(self.last_cut);
+        }
+        cuts.extend(events);
+        if ends_there {
+            cuts.push(t1);
+        }
+        cuts.dedup();
+        events.iter().for_each(|&t| carried.cut(t));
+        if let Some(&last) = cuts.last() {
+            self.last_cut = self.last_cut.max(last);
+        }
+        let between = cuts.windows(2).filter(|pair| pair[0] < pair[1]);
+        between.map(|pair| 0.5 * (pair[0] + pair[1])).collect()
+    }
+
+    /// The verdicts up to the end, and the rows without multiplier.
+    pub(super) fn finish(
+        self,
+        motion: &KeptRowMotion<'_>,
+        groups: &[Group],
+        to: f64,
+    ) -> (Stretches, Vec<DroppedRows>) {
+        let (mechanism, extent) = (motion.mechanism(), [0.0, to]);
+        let stretches = match self.carried {
+            None => Stretches::unique(mechanism, extent, groups),
+            Some(mut carried) => {
+                let breaks = &mechanism.layout().break_times;
+                breaks.iter().for_each(|&t| carried.cut(t));
+                carried.finish(extent)
+            }
+        };
+        (stretches, self.dropped)
+    }
+}

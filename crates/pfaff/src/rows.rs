@@ -1,0 +1,131 @@
+//! What is done with the rows of a run: one value for each file or array.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use dynamics::{Failure, MotionError, MotionFault, Plan, Sample, Stop, Summary};
+use report::{Ending, TableError};
+use solvability::Stretches;
+
+use crate::error::StudyError;
+
+/// Takes the rows of a run as they come, and its verdicts when it has ended. Numbers of reactions
+/// are those of one choice until then.
+pub trait RowSink {
+    /// Takes a row. What it asks of the sample is computed when it is first asked for.
+    ///
+    /// # Errors
+    /// [`RowFault`]: the row cannot be computed or written; the run ends.
+    fn row(&mut self, sample: &mut Sample<'_, '_>) -> Result<ControlFlow<()>, RowFault>;
+
+    /// Takes the verdicts of the run, however it ended; `None` if no reactions were asked for.
+    ///
+    /// # Errors
+    /// [`StudyError::File`], [`StudyError::Table`]: what belongs to the end cannot be written.
+    fn end(&mut self, verdicts: Option<&Stretches>, ending: &Ending<'_>) -> Result<(), StudyError> {
+        let _ = (verdicts, ending);
+        Ok(())
+    }
+}
+
+/// Reason why a row cannot be taken.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RowFault {
+    /// It cannot be computed.
+    #[error(transparent)]
+    Motion(#[from] MotionFault),
+    /// It cannot be written.
+    #[error(transparent)]
+    Table(#[from] TableError),
+}
+
+/// A sink that calls a function.
+pub(crate) struct Calling<F>(pub(crate) F);
+
+impl<F> RowSink for Calling<F>
+where
+    F: FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, RowFault>,
+{
+    fn row(&mut self, sample: &mut Sample<'_, '_>) -> Result<ControlFlow<()>, RowFault> {
+        (self.0)(sample)
+    }
+}
+
+/// A run that has ended.
+pub(crate) struct Ended {
+    pub(crate) summary: Summary,
+    /// Why it stopped by itself.
+    pub(crate) error: Option<MotionError>,
+    interrupted: bool,
+    /// Why a row could not be written.
+    pub(crate) unwritten: Option<TableError>,
+}
+
+impl Ended {
+    /// How it ended; a run whose rows could not be written is partial.
+    pub(crate) fn ending(&self) -> Ending<'_> {
+        match (&self.error, self.interrupted || self.unwritten.is_some()) {
+            (Some(error), _) => Ending::Stopped(error),
+            (None, true) => Ending::Interrupted,
+            (None, false) => Ending::Complete,
+        }
+    }
+}
+
+/// Runs a plan into sinks. `watch` is called with the time of each row, or of each step where no
+/// rows are asked for, and may end the run, as `stop` may, which is asked at each evaluation.
+///
+/// # Errors
+/// - [`StudyError::Motion`]: the run could not begin.
+/// - [`StudyError::Interrupted`]: it was ended before the first row.
+pub(crate) fn run_into(
+    plan: &Plan<'_>,
+    (watch, stop): (&(dyn Fn(f64) -> ControlFlow<()> + Sync), &Stop<'_>),
+    each: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    sinks: &mut [&mut dyn RowSink],
+) -> Result<Ended, StudyError> {
+    let interrupted = AtomicBool::new(false);
+    let note = |flow: ControlFlow<()>| {
+        interrupted.fetch_or(flow.is_break(), Ordering::Relaxed);
+        flow
+    };
+    let asked = || {
+        let is_asked = stop();
+        interrupted.fetch_or(is_asked, Ordering::Relaxed);
+        is_asked
+    };
+    let mut unwritten = None;
+    let mut rows = 0_usize;
+    let outcome = plan.simulate_watched(&|t| note(watch(t)), &asked, |sample| {
+        rows += 1;
+        for sink in sinks.iter_mut() {
+            match sink.row(sample) {
+                Ok(flow) if note(flow).is_break() => return Ok(flow),
+                Ok(_) => {}
+                Err(RowFault::Motion(fault)) => return Err(fault),
+                Err(RowFault::Table(error)) => {
+                    unwritten = Some(error);
+                    return Ok(ControlFlow::Break(()));
+                }
+            }
+        }
+        Ok(note(each(sample.t)))
+    });
+    let (summary, error) = match outcome {
+        // Files of an earlier run are not replaced if there is no row.
+        Ok(_) if rows == 0 => return Err(StudyError::Interrupted),
+        Err(failure) if rows == 0 => return Err(failure.error.into()),
+        Ok(summary) => (summary, None),
+        Err(failure) => {
+            let Failure { summary, error, .. } = *failure;
+            (summary, Some(error))
+        }
+    };
+    Ok(Ended {
+        summary,
+        error,
+        interrupted: interrupted.into_inner(),
+        unwritten,
+    })
+}

@@ -1,0 +1,242 @@
+//! Verdicts of a run: of joints and drives, of their components and of groups, by stretches of
+//! time, with the peaks of what is determined.
+
+use model::{Layout, System};
+use serde::Serialize;
+use solvability::{
+    Group, ReactionStretches, ReactionVerdict, Sensitivities, Stretches, Verdict, VerdictTrack,
+};
+
+use super::{Named, SensitivityDocument, VerdictDocument};
+use crate::peaks::Peak;
+use crate::tables::{Quantity, ReactionColumn};
+
+/// The verdict of a number over a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct TrackDocument {
+    /// `unique` if it is on all stretches; `not_unique` if it is not on one; else `undecided`.
+    pub verdict: &'static str,
+    /// Reason why it is undecided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// The intervals of time on which it is determined (s), where only some are.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub determined: Vec<[f64; 2]>,
+}
+
+impl From<&VerdictTrack> for TrackDocument {
+    fn from(track: &VerdictTrack) -> Self {
+        let verdict = track.of_run();
+        let determined = match verdict {
+            Verdict::Unique => Vec::new(),
+            _ => track.determined(),
+        };
+        Self {
+            verdict: verdict.word(),
+            reason: match verdict {
+                Verdict::Undecided { reason } => Some(reason.clone()),
+                _ => None,
+            },
+            determined,
+        }
+    }
+}
+
+/// The verdict of a joint or drive over a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RunReactionDocument {
+    /// The verdict over the run; absent if no reactions were asked for.
+    #[serde(flatten)]
+    pub of_run: Option<TrackDocument>,
+    /// How strongly it depends on the data at the start.
+    #[serde(flatten)]
+    pub data: SensitivityDocument,
+    /// The verdict at the start alone.
+    pub at_start: VerdictDocument,
+    /// Its components by name, as far as they are not identically zero, and the named one of its
+    /// definition; empty if no reactions were asked for.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub components: Named<RunNumberDocument>,
+}
+
+impl RunReactionDocument {
+    /// The word of the verdict: over the run, or at the start if nothing else was asked for.
+    #[must_use]
+    pub fn verdict(&self) -> &'static str {
+        let of_run = self.of_run.as_ref().map(|run| run.verdict);
+        of_run.unwrap_or(self.at_start.verdict)
+    }
+}
+
+/// A component of a reaction, or a number of a group, over a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RunNumberDocument {
+    /// The verdict over the run.
+    #[serde(flatten)]
+    pub of_run: TrackDocument,
+    /// Whether the last digits of the data determine it.
+    pub fragile: bool,
+    /// The largest value over the determined cells of the table; absent if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak: Option<PeakDocument>,
+}
+
+/// A peak.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct PeakDocument {
+    /// The value with its sign (N, N·m).
+    pub value: f64,
+    /// The first time at which it occurs (s).
+    pub time: f64,
+    /// The intervals on which the number is determined (s).
+    pub over: Vec<[f64; 2]>,
+}
+
+/// The verdict of a group over a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RunGroupDocument {
+    /// The verdict over the run.
+    #[serde(flatten)]
+    pub of_run: TrackDocument,
+    /// The components of a sum of wrenches.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub components: Named<RunNumberDocument>,
+    /// The peak of a sum that is one number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak: Option<PeakDocument>,
+}
+
+/// An instant with another verdict than its stretch.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct SpecialDocument {
+    /// Time (s).
+    pub time: f64,
+    /// Name of the joint, drive or group.
+    pub name: String,
+    /// The component; absent for a sum that is one number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub component: Option<&'static str>,
+    /// The verdict there.
+    pub verdict: &'static str,
+}
+
+/// What a run has of its reactions.
+#[derive(Clone, Copy)]
+pub struct RunVerdicts<'a> {
+    /// Its verdicts.
+    pub stretches: &'a Stretches,
+    /// The groups of the scene, with their names.
+    pub groups: &'a [(String, Group)],
+    /// Columns of its table, and the peaks of the determined numbers in each.
+    pub columns: &'a [ReactionColumn],
+    /// One for each column.
+    pub peaks: &'a [Option<Peak>],
+}
+
+impl RunVerdicts<'_> {
+    fn column(&self, quantity: Quantity) -> Option<(&ReactionColumn, Option<PeakDocument>)> {
+        let k = self.columns.iter().position(|c| c.quantity == quantity)?;
+        let peak = self.peaks.get(k)?.as_ref().map(|peak| PeakDocument {
+            value: peak.value,
+            time: peak.time,
+            over: peak.over.clone(),
+        });
+        Some((&self.columns[k], peak))
+    }
+
+    fn number(&self, quantity: Quantity, track: &VerdictTrack) -> RunNumberDocument {
+        let known = self.column(quantity);
+        RunNumberDocument {
+            of_run: track.into(),
+            fragile: known.as_ref().is_some_and(|(column, _)| column.fragile),
+            peak: known.and_then(|(_, peak)| peak),
+        }
+    }
+
+    fn components(&self, found: &ReactionStretches) -> Named<RunNumberDocument> {
+        let own = found.components.iter();
+        let own = own.map(|(name, track)| {
+            let quantity = Quantity::Component(found.id, name);
+            ((*name).to_owned(), self.number(quantity, track))
+        });
+        Named(own.collect())
+    }
+
+    /// The groups by name.
+    pub(super) fn groups(&self) -> Named<RunGroupDocument> {
+        let all = self.groups.iter().zip(&self.stretches.groups).enumerate();
+        let document = |(k, ((name, _), found)): (usize, (&(String, Group), _))| {
+            let found: &solvability::GroupStretches = found;
+            let numbers = found.numbers.iter();
+            let numbers: Vec<(String, RunNumberDocument)> = numbers
+                .map(|(name, track)| {
+                    let quantity = Quantity::Group(k, name);
+                    ((*name).to_owned(), self.number(quantity, track))
+                })
+                .collect();
+            let is_sum = numbers.len() == 1;
+            let peak = numbers.first().filter(|_| is_sum);
+            let peak = peak.and_then(|(_, number)| number.peak.clone());
+            let document = RunGroupDocument {
+                of_run: (&found.whole).into(),
+                peak,
+                components: Named(if is_sum { Vec::new() } else { numbers }),
+            };
+            (name.clone(), document)
+        };
+        Named(all.map(document).collect())
+    }
+
+    /// The instants at which another verdict holds than on their stretch, in the order of time.
+    pub(super) fn special(&self, layout: &Layout) -> Vec<SpecialDocument> {
+        let mut all = Vec::new();
+        let mut add = |owner: &str, component: Option<&'static str>, track: &VerdictTrack| {
+            all.extend(track.special().iter().map(|special| SpecialDocument {
+                time: special.time,
+                name: owner.to_owned(),
+                component,
+                verdict: special.verdict.word(),
+            }));
+        };
+        for found in &self.stretches.reactions {
+            let owner = &layout.groups[found.id.0].name;
+            for (name, track) in &found.components {
+                add(owner, Some(name), track);
+            }
+        }
+        for ((owner, _), found) in self.groups.iter().zip(&self.stretches.groups) {
+            for (name, track) in &found.numbers {
+                add(owner, (*name != "sum").then_some(name), track);
+            }
+        }
+        all.sort_by(|a, b| a.time.total_cmp(&b.time));
+        all
+    }
+}
+
+impl RunReactionDocument {
+    /// The verdict of a joint or drive, with that of the run if there is one.
+    pub(super) fn new(
+        at_start: &ReactionVerdict,
+        run: Option<&RunVerdicts<'_>>,
+        sensitivities: &Sensitivities,
+        mechanism: &model::Mechanism,
+    ) -> Self {
+        let found = run.and_then(|run| run.stretches.reactions.get(at_start.id.0));
+        Self {
+            of_run: found.map(|found| (&found.whole).into()),
+            data: SensitivityDocument::of(sensitivities, at_start.id, mechanism.layout()),
+            at_start: (&at_start.wrench).into(),
+            components: match (run, found) {
+                (Some(run), Some(found)) => run.components(found),
+                _ => Named(Vec::new()),
+            },
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! The largest values of reactions over a run, of determined cells only. Which cells these are is
+//! known when the run has ended; so a peak is kept for each interval between cuts.
+
+use solvability::Stretches;
+
+use crate::tables::ReactionColumn;
+
+/// The largest value of a column over its determined cells.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Peak {
+    /// The value, with its sign (N, N·m).
+    pub value: f64,
+    /// The first time at which it occurs (s).
+    pub time: f64,
+    /// The intervals on which the number is determined (s).
+    pub over: Vec<[f64; 2]>,
+}
+
+/// Peaks of columns as rows come.
+#[derive(Clone, Debug, Default)]
+pub struct PeakRecorder {
+    /// Times at which other verdicts may begin, ascending.
+    cuts: Vec<f64>,
+    /// Number of cuts up to the last row.
+    passed: usize,
+    /// For each column its largest value between two cuts, with its time, in the order of time.
+    columns: Vec<Vec<[f64; 2]>>,
+}
+
+impl PeakRecorder {
+    /// Peaks of this many columns, with cuts that are known beforehand.
+    #[must_use]
+    pub fn new(columns: usize, cuts: &[f64]) -> Self {
+        Self {
+            cuts: cuts.to_vec(),
+            passed: 0,
+            columns: vec![Vec::new(); columns],
+        }
+    }
+
+    /// Takes note of a cut, which may lie before the last row: then numbers of both sides are
+    /// compared apart from the next row on.
+    pub fn cut(&mut self, t: f64) {
+        let place = self.cuts.partition_point(|cut| *cut < t);
+        if self.cuts.get(place) != Some(&t) {
+            self.cuts.insert(place, t);
+            if place < self.passed {
+                self.passed += 1;
+            }
+        }
+    }
+
+    /// Takes a row. NaN is no value.
+    pub fn row(&mut self, t: f64, values: &[f64]) {
+        let passed = self.cuts.partition_point(|cut| *cut <= t);
+        let begins = passed > self.passed;
+        self.passed = self.passed.max(passed);
+        for (peaks, &value) in self.columns.iter_mut().zip(values) {
+            match peaks.last_mut() {
+                Some(peak) if !begins => {
+                    if value.abs() > peak[0].abs() || peak[0].is_nan() {
+                        *peak = [value, t];
+                    }
+                }
+                _ => peaks.push([value, t]),
+            }
+        }
+    }
+
+    /// The peak of each column; `None` if no cell is determined.
+    #[must_use]
+    pub fn finish(&self, columns: &[ReactionColumn], stretches: &Stretches) -> Vec<Option<Peak>> {
+        let of = |(column, peaks): (&ReactionColumn, &Vec<[f64; 2]>)| {
+            let track = column.quantity.verdicts(stretches);
+            let is_determined = |t: f64| track.is_none_or(|track| track.at(t).is_unique());
+            let known = peaks
+                .iter()
+                .filter(|[value, t]| value.is_finite() && is_determined(*t));
+            // The first of equals.
+            let largest = known.copied().reduce(|best, peak| {
+                if peak[0].abs() > best[0].abs() {
+                    peak
+                } else {
+                    best
+                }
+            });
+            largest.map(|[value, time]| Peak {
+                value,
+                time,
+                over: track.map_or_else(|| vec![stretches.extent], |track| track.determined()),
+            })
+        };
+        columns.iter().zip(&self.columns).map(of).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use model::ConstraintId;
+    use solvability::{Verdict, VerdictTrack};
+
+    use super::*;
+    use crate::tables::{Column, Quantity};
+
+    /// The largest value may be one of a choice: the peak is that of the determined interval.
+    #[test]
+    fn a_peak_is_one_of_determined_cells() {
+        let column = ReactionColumn {
+            column: Column {
+                owner: "hinge".into(),
+                kind: "reaction",
+                number: "Fx",
+            },
+            quantity: Quantity::Component(ConstraintId(0), "Fx"),
+            fragile: false,
+        };
+        let mut peaks = PeakRecorder::new(1, &[1.0]);
+        for (t, value) in [(0.0, 2.0), (0.5, -5.0), (1.0, 90.0), (2.0, 100.0)] {
+            peaks.row(t, &[value]);
+        }
+        let stretch = |from, to, verdict| solvability::VerdictStretch { from, to, verdict };
+        let track = VerdictTrack::of([
+            stretch(0.0, 1.0, Verdict::Unique),
+            stretch(1.0, 2.0, Verdict::NotUnique),
+        ]);
+        let stretches = Stretches {
+            extent: [0.0, 2.0],
+            reactions: vec![solvability::ReactionStretches {
+                id: ConstraintId(0),
+                whole: track.clone(),
+                components: vec![("Fx", track)],
+            }],
+            groups: Vec::new(),
+        };
+        let found = peaks.finish(&[column], &stretches);
+        let peak = Peak {
+            value: -5.0,
+            time: 0.5,
+            over: vec![[0.0, 1.0]],
+        };
+        assert_eq!(found, [Some(peak)]);
+    }
+}

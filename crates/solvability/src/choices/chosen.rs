@@ -1,0 +1,49 @@
+//! Numbers of one solution among all: their type says so.
+
+/// Numbers that belong to one solution of the equations of motion: that in which the multipliers of
+/// some rows are zero. Which of them are the same in every solution is a question for the verdicts;
+/// the numbers alone do not say it, so they are given only to a caller who says that they are
+/// chosen.
+///
+/// ```
+/// use solvability::Chosen;
+/// let lambda = Chosen::new(vec![3.0, 0.0], vec![1]);
+/// assert_eq!(lambda.dropped(), [1]);
+/// assert_eq!(lambda.as_chosen(), [3.0, 0.0]);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chosen<T> {
+    values: Vec<T>,
+    dropped: Vec<usize>,
+}
+
+impl<T> Chosen<T> {
+    /// Numbers of the solution in which these rows (from 0) have no multiplier.
+    #[must_use]
+    pub fn new(values: Vec<T>, dropped: Vec<usize>) -> Self {
+        Self { values, dropped }
+    }
+
+    /// The numbers, of this choice.
+    #[must_use]
+    pub fn as_chosen(&self) -> &[T] {
+        &self.values
+    }
+
+    /// The rows whose multipliers are zero by choice, from 0, ascending.
+    #[must_use]
+    pub fn dropped(&self) -> &[usize] {
+        &self.dropped
+    }
+
+    /// States for which rows the numbers are that are written next.
+    pub fn choose(&mut self, dropped: &[usize]) {
+        self.dropped.clear();
+        self.dropped.extend_from_slice(dropped);
+    }
+
+    /// The numbers of this choice, to be written by whoever solves for them.
+    pub fn to_be_written(&mut self) -> &mut [T] {
+        &mut self.values
+    }
+}

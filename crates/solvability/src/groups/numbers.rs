@@ -1,0 +1,61 @@
+//! The numbers of groups during a motion.
+
+use model::start::scene_size;
+use model::{Mechanism, Scratch, System};
+
+use super::error::RequestError;
+use super::group::Group;
+use super::reactions::ReactionForms;
+use crate::choices::Chosen;
+
+/// Groups whose numbers are computed at one pose after the other.
+pub struct GroupNumbers<'m> {
+    mechanism: &'m Mechanism,
+    groups: Vec<Group>,
+    s: Scratch,
+    /// Length by which torques are divided for comparison with forces (m).
+    size: f64,
+}
+
+impl<'m> GroupNumbers<'m> {
+    /// Groups of a mechanism whose coordinates are q somewhere.
+    #[must_use]
+    pub fn new(mechanism: &'m Mechanism, q: &[f64], groups: &[Group]) -> Self {
+        Self {
+            mechanism,
+            groups: groups.to_vec(),
+            s: mechanism.scratch(),
+            size: scene_size(mechanism, q),
+        }
+    }
+
+    /// The groups.
+    #[must_use]
+    pub fn groups(&self) -> &[Group] {
+        &self.groups
+    }
+
+    /// All numbers at time t and coordinates q, group by group in the order of
+    /// [`Group::number_names`] (N, N·m), for multipliers of all rows.
+    ///
+    /// # Errors
+    /// As [`crate::judge_groups`].
+    pub fn at(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        multipliers: &Chosen<f64>,
+    ) -> Result<Chosen<f64>, RequestError> {
+        let mut values = Vec::new();
+        if !self.groups.is_empty() {
+            self.mechanism.pose(t, q, &mut self.s);
+            self.mechanism.c(&mut self.s);
+            let forms = ReactionForms::at(self.mechanism, &self.s, self.size);
+            for group in &self.groups {
+                let numbers = forms.numbers(group)?.into_iter();
+                values.extend(numbers.map(|(_, form)| form.value(multipliers.as_chosen())));
+            }
+        }
+        Ok(Chosen::new(values, multipliers.dropped().to_vec()))
+    }
+}

@@ -1,0 +1,452 @@
+//! The verdicts at instants of a motion on kept rows, read from what the motion has factored.
+//!
+//! The rank is that of the regime of the motion and is not decided again. Kept rows that are
+//! factored give vectors of the left null space in plain numbers; how accurate these are is known
+//! from the last full decision, which is made for the accuracy of the motion. What they leave open
+//! is decided in full at that instant.
+
+use std::borrow::Cow;
+
+use linalg::{Matrix, PivotedQr};
+use model::{ConstraintId, Known, Mechanism, Scratch, System};
+use rank::RankStatus;
+
+use super::recorder::Verdicts;
+use super::{GroupStretches, Looked, ReactionStretches, Stretches, VerdictRecorder, VerdictTrack};
+use crate::certificate::Rows;
+use crate::error::AnalysisError;
+use crate::groups::{Group, LinearForm, ReactionForms, RequestError};
+use crate::limits::ROWS_MAX;
+use crate::matrices::{self, Basis, QueryError, Solvability};
+use crate::mechanism::component_map;
+use crate::parts::{Extent, Partition};
+use crate::pose::evaluated;
+use crate::sparse::Decided;
+use crate::verdict::Verdict;
+
+/// The verdicts of a motion of a mechanism, collected while it goes.
+pub struct CarriedVerdicts<'m> {
+    mechanism: &'m Mechanism,
+    /// Length that makes C dimensionless (m).
+    size: f64,
+    accuracy: Known,
+    parts: Vec<OpenPart<'m>>,
+    groups: Vec<Group>,
+    recorder: VerdictRecorder,
+}
+
+/// Joints on common cycles whose rows depend on each other.
+struct OpenPart<'m> {
+    extent: Extent,
+    mechanism: Cow<'m, Mechanism>,
+    /// Rows in the mechanism, ascending.
+    rows: Vec<usize>,
+    redundancy: usize,
+    /// Accuracy of vectors of its left null space, from the last full decision for the accuracy
+    /// of the motion.
+    known: Option<matrices::Known>,
+}
+
+/// A state of the motion, and vectors of the left null space of C there.
+pub struct CarriedState<'s> {
+    /// Time (s).
+    pub t: f64,
+    /// Coordinates, which satisfy the constraints.
+    pub q: &'s [f64],
+    /// Φ and C have been evaluated here.
+    pub scratch: &'s Scratch,
+    /// Dependencies of the rows of C, `Cᵀ·z = 0`, over all rows in SI units: of each dropped row,
+    /// or of [`crate::CARRIED_VECTORS`] sums of them with random signs.
+    pub dependencies: &'s [Vec<f64>],
+}
+
+impl<'m> CarriedVerdicts<'m> {
+    /// For a motion from the coordinates q at time t that drops these rows, integrated with a
+    /// relative tolerance. Returns `None` if no row is dropped: then everything is unique.
+    #[must_use]
+    pub fn new(
+        mechanism: &'m Mechanism,
+        (t, q): (f64, &[f64]),
+        dropped: &[usize],
+        rtol: f64,
+        groups: &[Group],
+    ) -> Option<Self> {
+        if dropped.is_empty() {
+            return None;
+        }
+        let mut parts = Vec::new();
+        let sets = match Partition::of(mechanism, t, q) {
+            Partition::One => vec![None],
+            Partition::Several(sets) => sets.into_iter().map(Some).collect(),
+        };
+        for set in sets {
+            let (own, extent) = match set {
+                None => (Cow::Borrowed(mechanism), Extent::Whole),
+                Some(groups) => {
+                    let part = mechanism.part_of_groups(&groups);
+                    (Cow::Owned(part.mechanism), Extent::Places(part.places))
+                }
+            };
+            let count = own.layout().rows();
+            let rows: Vec<usize> = (0..count).map(|k| extent.row(k)).collect();
+            let redundancy = dropped
+                .iter()
+                .filter(|row| extent.own_row(**row).is_some())
+                .count();
+            if redundancy > 0 {
+                parts.push(OpenPart {
+                    extent,
+                    mechanism: own,
+                    rows,
+                    redundancy,
+                    known: None,
+                });
+            }
+        }
+        let mut carried = Self {
+            mechanism,
+            size: model::start::scene_size(mechanism, q),
+            accuracy: Known::To(rtol),
+            parts,
+            groups: groups.to_vec(),
+            recorder: VerdictRecorder::new(0),
+        };
+        carried.recorder = VerdictRecorder::new(carried.numbers().len());
+        Some(carried)
+    }
+
+    /// Takes the verdicts at a state. Where C cannot be analysed they are undecided, with the
+    /// reason.
+    pub fn look(&mut self, at: &CarriedState<'_>, looked: Looked) {
+        let verdicts = self.verdicts(at).unwrap_or_else(|error| {
+            let reason = error.to_string();
+            vec![Some(Verdict::Undecided { reason }); self.recorder.numbers()]
+        });
+        self.recorder.see(at.t, looked, verdicts);
+    }
+
+    /// Takes note of a state that says nothing of others: the rank drops there.
+    pub fn pass(&mut self, t: f64, looked: Looked) {
+        let nothing = vec![None; self.recorder.numbers()];
+        self.recorder.see(t, looked, nothing);
+    }
+
+    fn verdicts(&mut self, at: &CarriedState<'_>) -> Result<Verdicts, AnalysisError> {
+        let mut verdicts = Vec::with_capacity(self.recorder.numbers());
+        let forms = self.forms(at)?;
+        let known = if at.t == 0.0 {
+            Known::AsStored
+        } else {
+            self.accuracy
+        };
+        for part in &mut self.parts {
+            verdicts.extend(part.verdicts(self.mechanism, at, known, &forms)?);
+        }
+        Ok(verdicts)
+    }
+
+    /// Begins another stretch.
+    pub fn cut(&mut self, t: f64) {
+        self.recorder.cut(t);
+    }
+
+    /// Whether nothing has been looked at since this time.
+    #[must_use]
+    pub fn is_blank_since(&self, t: f64) -> bool {
+        self.recorder.is_blank_since(t)
+    }
+
+    /// The linear forms of the numbers of all groups at a pose.
+    fn forms(&self, at: &CarriedState<'_>) -> Result<Vec<LinearForm>, AnalysisError> {
+        if self.groups.is_empty() {
+            return Ok(Vec::new());
+        }
+        let reactions = ReactionForms::at(self.mechanism, at.scratch, self.size);
+        let numbers = self.groups.iter().map(|group| reactions.numbers(group));
+        let numbers = numbers.collect::<Result<Vec<_>, RequestError>>();
+        let failed = |source: RequestError| AnalysisError::Group {
+            time: at.t,
+            source: Box::new(source),
+        };
+        let forms = numbers.map_err(failed)?.into_iter().flatten();
+        Ok(forms.map(|(_, form)| form).collect())
+    }
+
+    /// The numbers that are judged, part by part: components of its joints, then those of groups.
+    fn numbers(&self) -> Vec<Number> {
+        let layout = self.mechanism.layout();
+        let mut numbers = Vec::new();
+        for part in &self.parts {
+            for own in 0..part.mechanism.layout().groups.len() {
+                let id = ConstraintId(part.extent.group(own));
+                let group = &layout.groups[id.0];
+                let names = group.space.components();
+                let components = group.components().into_iter().map(|c| names[c]);
+                numbers.extend(
+                    components
+                        .chain(group.spec.component)
+                        .map(|name| Number::Component(id, name)),
+                );
+            }
+            for (k, group) in self.groups.iter().enumerate() {
+                let names = group.number_names(layout.space);
+                numbers.extend(names.iter().map(|name| Number::Group(k, name)));
+            }
+        }
+        numbers
+    }
+
+    /// The verdicts from begin to end.
+    #[must_use]
+    pub fn finish(self, extent: [f64; 2]) -> Stretches {
+        let numbers = self.numbers();
+        let mut stretches = Stretches::unique(self.mechanism, extent, &self.groups);
+        for (number, track) in numbers.into_iter().zip(self.recorder.finish(extent)) {
+            match number {
+                Number::Component(id, name) => {
+                    let own = &mut stretches.reactions[id.0].components;
+                    if let Some((_, known)) = own.iter_mut().find(|(n, _)| *n == name) {
+                        *known = track;
+                    }
+                }
+                Number::Group(k, name) => {
+                    let own = &mut stretches.groups[k].numbers;
+                    if let Some((_, known)) = own.iter_mut().find(|(n, _)| *n == name) {
+                        *known = VerdictTrack::together(&[known, &track]);
+                    }
+                }
+            }
+        }
+        stretches.sum_up(&self.groups);
+        stretches
+    }
+}
+
+/// A number that is judged.
+enum Number {
+    Component(ConstraintId, &'static str),
+    Group(usize, &'static str),
+}
+
+impl OpenPart<'_> {
+    /// The verdicts on its numbers at a state.
+    fn verdicts(
+        &mut self,
+        whole: &Mechanism,
+        at: &CarriedState<'_>,
+        known: Known,
+        forms: &[LinearForm],
+    ) -> Result<Verdicts, AnalysisError> {
+        let of_motion = known != Known::AsStored;
+        if of_motion && let Some(known) = self.known.take() {
+            let basis = self.carried_basis(at, known);
+            let found = self.judged(whole, at, forms, &|_| Cow::Borrowed(&basis));
+            self.known = Some(basis.known);
+            let found = found.map_err(|source| AnalysisError::Query { time: at.t, source })?;
+            if found.iter().all(Verdict::is_decided) {
+                return Ok(found.into_iter().map(Some).collect());
+            }
+        }
+        self.decided(whole, at, known, forms)
+    }
+
+    /// The verdicts by a full decision at a state; `None` each if the rank there is not that of
+    /// the motion: then the instant lies at a singular configuration and says nothing of others.
+    fn decided(
+        &mut self,
+        whole: &Mechanism,
+        at: &CarriedState<'_>,
+        known: Known,
+        forms: &[LinearForm],
+    ) -> Result<Verdicts, AnalysisError> {
+        let q = self.extent.coordinates(at.q);
+        let query = |source| AnalysisError::Query { time: at.t, source };
+        let (found, accuracy) = if self.rows.len() <= ROWS_MAX {
+            let rows = Rows::new(&self.mechanism, at.t, &q, known)?;
+            let decision = rows.decide()?;
+            let is_of_motion =
+                decision.status == RankStatus::Decided && decision.redundancy == self.redundancy;
+            let solvability = Solvability::from_decision(&rows.matrix(), decision);
+            let basis = solvability.basis();
+            let found = self.judged(whole, at, forms, &|_| Cow::Borrowed(basis));
+            let accuracy = is_of_motion.then(|| basis.known.clone());
+            (found.map_err(query)?, accuracy)
+        } else {
+            let s = evaluated(&self.mechanism, at.t, &q);
+            let decided = Decided::of(&self.mechanism, &s, &q, 0..self.rows.len())?;
+            let is_of_motion =
+                decided.found.is_decided() && decided.found.redundancy == self.redundancy;
+            let found = self.judged(whole, at, forms, &|rows| Cow::Owned(decided.basis(rows)));
+            let all: Vec<usize> = (0..self.rows.len()).collect();
+            let accuracy = is_of_motion.then(|| decided.known(&all, 0));
+            (found.map_err(query)?, accuracy)
+        };
+        let is_of_motion = accuracy.is_some();
+        if known != Known::AsStored {
+            self.known = accuracy.or(self.known.take());
+        }
+        Ok(if is_of_motion {
+            found.into_iter().map(Some).collect()
+        } else {
+            vec![None; found.len()]
+        })
+    }
+
+    /// The vectors of the left null space that the motion has, orthonormal in equilibrated rows,
+    /// with the accuracy of the last full decision.
+    fn carried_basis(&self, at: &CarriedState<'_>, known: matrices::Known) -> Basis {
+        let (m, count) = (self.rows.len(), at.dependencies.len());
+        let scaled = Matrix::from_fn(m, count, |i, j| {
+            at.dependencies[j][self.rows[i]] / known.row_factor[i]
+        });
+        let columns = count.min(self.redundancy);
+        let z = PivotedQr::of_columns(&scaled).q_columns(0..columns);
+        // Of many dependencies some combinations are there, each with its share of their size.
+        let share = (self.redundancy as f64 / columns as f64).sqrt();
+        let z = if share > 1.0 {
+            Matrix::from_fn(m, columns, |i, j| share * z[(i, j)])
+        } else {
+            z
+        };
+        Basis {
+            c: Matrix::zeros(m, 0),
+            z,
+            known,
+            exact: None,
+        }
+    }
+
+    /// The verdicts on all numbers of the part, with a basis for rows of the part. A basis of all
+    /// rows may be given for some of them.
+    fn judged<'b>(
+        &self,
+        whole: &Mechanism,
+        at: &CarriedState<'_>,
+        forms: &[LinearForm],
+        basis: &dyn Fn(&[usize]) -> Cow<'b, Basis>,
+    ) -> Result<Vec<Verdict>, QueryError> {
+        let mut verdicts = Vec::new();
+        let reactions = whole.reactions(at.scratch);
+        for (own, group) in self.mechanism.layout().groups.iter().enumerate() {
+            let id = ConstraintId(self.extent.group(own));
+            let rows: Vec<usize> = group.rows.iter().collect();
+            let basis = basis(&rows);
+            let places = places(&basis, &rows, self.rows.len());
+            let named = group.spec.component;
+            if basis.is_free_of(&places) {
+                let count = group.components().len() + usize::from(named.is_some());
+                verdicts.resize(verdicts.len() + count, Verdict::Unique);
+                continue;
+            }
+            let (components, map) = component_map(whole, id, at.scratch);
+            let forces = group.space.forces();
+            let forces = components.iter().filter(|c| forces.contains(*c)).count();
+            let mapped = basis
+                .mapped(&map, places.iter().copied())?
+                .with_forces(forces);
+            for k in 0..components.len() {
+                verdicts.push(mapped.component(k)?.verdict);
+            }
+            if let Some(name) = named {
+                let coefficients = reactions.component_coefficients(id, name);
+                let coefficients = coefficients.unwrap_or_else(|| vec![0.0; rows.len()]);
+                let map = Matrix::from_fn(1, rows.len(), |_, j| coefficients[j]);
+                verdicts.push(basis.mapped(&map, places)?.component(0)?.verdict);
+            }
+        }
+        for form in forms {
+            let own: Vec<usize> = (0..self.rows.len())
+                .filter(|&i| form.has_term(self.rows[i]))
+                .collect();
+            let basis = basis(&own);
+            let places = places(&basis, &own, self.rows.len());
+            let all: Vec<usize> = own.iter().map(|&i| self.rows[i]).collect();
+            let map = form.map_of(&all);
+            verdicts.push(basis.mapped(&map, places)?.component(0)?.verdict);
+        }
+        Ok(verdicts)
+    }
+}
+
+/// Where these rows of a part are in a basis: of all rows, or of these alone.
+fn places(basis: &Basis, rows: &[usize], all: usize) -> Vec<usize> {
+    if basis.z.nrows() == all {
+        rows.to_vec()
+    } else {
+        (0..rows.len()).collect()
+    }
+}
+
+impl Stretches {
+    /// Everything unique from begin to end.
+    #[must_use]
+    pub fn unique(mechanism: &Mechanism, extent: [f64; 2], groups: &[Group]) -> Self {
+        let track = || VerdictTrack::constant(extent, Verdict::Unique);
+        let layout = mechanism.layout();
+        let reaction = |id: ConstraintId| {
+            let group = &layout.groups[id.0];
+            let names = group.space.components();
+            let own = group.components().into_iter().map(|c| names[c]);
+            ReactionStretches {
+                id,
+                whole: track(),
+                components: own
+                    .chain(group.spec.component)
+                    .map(|name| (name, track()))
+                    .collect(),
+            }
+        };
+        let of_group = |group: &Group| GroupStretches {
+            whole: track(),
+            numbers: group
+                .number_names(layout.space)
+                .iter()
+                .map(|name| (*name, track()))
+                .collect(),
+        };
+        Self {
+            extent,
+            reactions: layout.constraint_ids().map(reaction).collect(),
+            groups: groups.iter().map(of_group).collect(),
+        }
+    }
+
+    /// Takes the verdicts of some of the joints and drives, with their places in the whole. Each
+    /// group of theirs is a share of one of the whole.
+    pub fn take(&mut self, own: &Self, places: &[usize], shares: &[usize]) {
+        for (found, &place) in own.reactions.iter().zip(places) {
+            self.reactions[place] = ReactionStretches {
+                id: ConstraintId(place),
+                ..found.clone()
+            };
+        }
+        for (found, &place) in own.groups.iter().zip(shares) {
+            let known = self.groups[place].numbers.iter_mut();
+            for ((_, known), (_, track)) in known.zip(&found.numbers) {
+                *known = VerdictTrack::together(&[known, track]);
+            }
+        }
+    }
+
+    /// Sets the verdicts on whole reactions and groups by those on their numbers.
+    pub fn sum_up(&mut self, groups: &[Group]) {
+        for reaction in &mut self.reactions {
+            let own: Vec<&VerdictTrack> = reaction.components.iter().map(|(_, t)| t).collect();
+            if !own.is_empty() {
+                reaction.whole = VerdictTrack::together(&own);
+            }
+        }
+        for (group, found) in groups.iter().zip(&mut self.groups) {
+            let own: Vec<&VerdictTrack> = match group {
+                Group::Members(members) => members
+                    .iter()
+                    .map(|id| &self.reactions[id.0].whole)
+                    .collect(),
+                _ => found.numbers.iter().map(|(_, track)| track).collect(),
+            };
+            if !own.is_empty() {
+                found.whole = VerdictTrack::together(&own);
+            }
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! Collects what was seen of numbers at instants of a run, and cuts the run into stretches.
+
+use std::collections::VecDeque;
+use std::ops::Range;
+
+use super::{SpecialInstant, VerdictStretch, VerdictTrack, worst};
+use crate::verdict::Verdict;
+
+/// What an instant is to the run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Looked {
+    /// The next instant in the order of time.
+    Next,
+    /// An instant ahead, the next of several in the order of time: earlier ones may follow.
+    Ahead,
+}
+
+/// The verdicts at an instant, one for each number; `None` where the instant says nothing of others.
+pub(super) type Verdicts = Vec<Option<Verdict>>;
+
+/// The verdicts on some numbers at instants of a run.
+#[derive(Clone, Debug)]
+pub struct VerdictRecorder {
+    times: Vec<f64>,
+    numbers: Vec<Seen>,
+    cuts: Vec<f64>,
+    /// Instants ahead, until all before them are known.
+    ahead: VecDeque<(f64, Verdicts)>,
+}
+
+/// The verdicts on one number, each with the first instant at which it was seen again.
+#[derive(Clone, Debug, Default)]
+struct Seen {
+    changes: Vec<(usize, Option<Verdict>)>,
+}
+
+impl VerdictRecorder {
+    /// A recorder of this many numbers.
+    #[must_use]
+    pub fn new(numbers: usize) -> Self {
+        Self {
+            times: Vec::new(),
+            numbers: vec![Seen::default(); numbers],
+            cuts: Vec::new(),
+            ahead: VecDeque::new(),
+        }
+    }
+
+    /// Takes the verdicts at an instant, one for each number; `None` at an instant that says nothing
+    /// of others. Of two at the same time the first counts.
+    pub fn see(&mut self, t: f64, looked: Looked, verdicts: Vec<Option<Verdict>>) {
+        match looked {
+            Looked::Ahead => self.ahead.push_back((t, verdicts)),
+            Looked::Next => {
+                self.catch_up(t);
+                self.take(t, verdicts);
+            }
+        }
+    }
+
+    /// Begins another stretch at this time.
+    pub fn cut(&mut self, t: f64) {
+        self.cuts.push(t);
+    }
+
+    /// Number of numbers.
+    pub(super) fn numbers(&self) -> usize {
+        self.numbers.len()
+    }
+
+    /// Whether no instant after this time has been seen.
+    #[must_use]
+    pub fn is_blank_since(&self, t: f64) -> bool {
+        let is_before = |seen: &f64| *seen <= t;
+        self.times.last().is_none_or(is_before)
+            && self.ahead.iter().all(|(ahead, _)| is_before(ahead))
+    }
+
+    /// Takes what was seen ahead up to this time.
+    fn catch_up(&mut self, t: f64) {
+        while let Some((ahead, verdicts)) = self.ahead.pop_front_if(|(ahead, _)| *ahead <= t) {
+            self.take(ahead, verdicts);
+        }
+    }
+
+    fn take(&mut self, t: f64, verdicts: Verdicts) {
+        if self.times.last().is_some_and(|last| *last >= t) {
+            return;
+        }
+        let index = self.times.len();
+        self.times.push(t);
+        for (seen, verdict) in self.numbers.iter_mut().zip(verdicts) {
+            if seen.changes.last().is_none_or(|(_, last)| *last != verdict) {
+                seen.changes.push((index, verdict));
+            }
+        }
+    }
+
+    /// The verdicts on each number from begin to end.
+    #[must_use]
+    pub fn finish(mut self, [from, to]: [f64; 2]) -> Vec<VerdictTrack> {
+        self.catch_up(f64::INFINITY);
+        let inside = |t: &f64| from < *t && *t < to;
+        self.cuts.retain(inside);
+        self.cuts.sort_by(f64::total_cmp);
+        self.cuts.dedup();
+        let ends: Vec<f64> = std::iter::once(from)
+            .chain(self.cuts.iter().copied())
+            .chain([to])
+            .collect();
+        let times = &self.times;
+        // Instants that belong to each stretch, and those of them inside.
+        let last = ends.len() - 2;
+        let pieces: Vec<Piece> = (0..=last)
+            .map(|k| {
+                let [begin, end] = [ends[k], ends[k + 1]];
+                let first = times.partition_point(|t| *t < begin);
+                let own = if k == last {
+                    times.len()
+                } else {
+                    times.partition_point(|t| *t < end)
+                };
+                let inner = times.partition_point(|t| *t <= begin);
+                let inner_end = times.partition_point(|t| *t < end);
+                Piece {
+                    ends: [begin, end],
+                    own: first..own.max(first),
+                    inside: inner..inner_end.max(inner),
+                }
+            })
+            .collect();
+        let numbers = self.numbers.iter();
+        numbers.map(|seen| seen.track(times, &pieces)).collect()
+    }
+}
+
+/// A stretch with its instants.
+struct Piece {
+    ends: [f64; 2],
+    /// All that belong to it.
+    own: Range<usize>,
+    /// Those between its ends.
+    inside: Range<usize>,
+}
+
+impl Seen {
+    /// The verdict at an instant.
+    fn at(&self, index: usize) -> Option<&Verdict> {
+        let begun = self.changes.partition_point(|(k, _)| *k <= index);
+        self.changes[begun.checked_sub(1)?].1.as_ref()
+    }
+
+    /// The verdicts at a range of instants, each change once.
+    fn over(&self, range: &Range<usize>) -> impl Iterator<Item = &Verdict> {
+        let begun = self.changes.partition_point(|(k, _)| *k <= range.start);
+        let ended = self.changes.partition_point(|(k, _)| *k < range.end);
+        let changes = self.changes.get(begun.saturating_sub(1)..ended);
+        let changes = changes.unwrap_or_default().iter();
+        changes.filter_map(|(_, verdict)| verdict.as_ref())
+    }
+
+    fn track(&self, times: &[f64], pieces: &[Piece]) -> VerdictTrack {
+        let mut special = Vec::new();
+        let mut stretches = Vec::with_capacity(pieces.len());
+        for piece in pieces {
+            let verdict = self.verdict(piece);
+            let differs = |v: &Verdict| v.word() != verdict.word();
+            if verdict.is_decided() && self.over(&piece.own).any(differs) {
+                let seen = piece.own.clone().filter_map(|k| Some((k, self.at(k)?)));
+                special.extend(seen.filter(|(_, v)| differs(v)).map(|(k, verdict)| {
+                    SpecialInstant {
+                        time: times[k],
+                        verdict: verdict.clone(),
+                    }
+                }));
+            }
+            let [from, to] = piece.ends;
+            stretches.push(VerdictStretch { from, to, verdict });
+        }
+        VerdictTrack::new(stretches, special)
+    }
+
+    /// The verdict on a stretch: that of its inside. A run of one instant has that of the instant.
+    fn verdict(&self, piece: &Piece) -> Verdict {
+        let [from, to] = piece.ends;
+        let range = if from == to {
+            &piece.own
+        } else {
+            &piece.inside
+        };
+        let mut seen = self.over(range).peekable();
+        if seen.peek().is_none() {
+            let reason =
+                format!("nothing was judged between the events at {from:.6e} s and {to:.6e} s");
+            return Verdict::Undecided { reason };
+        }
+        worst(seen).clone()
+    }
+}
