@@ -13,7 +13,7 @@ use model::ConstraintId;
 use rank::{KeptRowsError, RankStatus};
 
 pub(crate) use equations::solution_under;
-pub use equations::{Equations, Solution, solution};
+pub use equations::{Equations, RowTerms, Solution, solution};
 pub use error::ChoiceError;
 pub use minimise::minimise;
 pub use value::{Label, Value};
