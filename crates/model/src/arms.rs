@@ -6,7 +6,7 @@ use crate::element::PlacedConstraint;
 use crate::group::ConstraintId;
 use crate::mechanism::Mechanism;
 use crate::size::{are_apart, size_of};
-use crate::space::norm;
+use crate::space::{difference, norm};
 use crate::system::{Scratch, System};
 
 /// The longest arm of each body at the pose of the scratch (m), never zero. A body with all joints
@@ -31,6 +31,23 @@ pub(crate) fn longest_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
         .zip(of_neighbours)
         .map(first_length)
         .collect()
+}
+
+/// The distance of the farthest joint of any kind from the centre of each body at the pose of the
+/// scratch (m); zero if all are there.
+pub(crate) fn farthest_joints(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
+    let mut arms = vec![0.0_f64; mechanism.bodies().len()];
+    for (k, constraint) in mechanism.elements.constraints.iter().enumerate() {
+        let farthest = farthest(mechanism, s, constraint);
+        let place = mechanism.reactions(s).place(ConstraintId(k));
+        for body in constraint.site.moving() {
+            let arm = norm(&difference(place, s.bodies.origin(body)));
+            if are_apart(arm, farthest) {
+                arms[body] = arms[body].max(arm);
+            }
+        }
+    }
+    arms
 }
 
 /// The longest arm of each body; zero if its joints are at its centre.

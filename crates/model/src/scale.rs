@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use linalg::Scaling;
 
-use crate::arms::longest_arms;
+use crate::arms::farthest_joints;
 use crate::mechanism::Mechanism;
 use crate::space::norm;
 use crate::system::{Scratch, System};
@@ -156,15 +156,15 @@ impl Scales<'_> {
     }
 
     /// Scaling of the columns of a dimensionless C by the arms of the bodies: one unit for all
-    /// lengths, and for the rotation of each body the distance of its farthest joint. Unlike an
-    /// equilibration it does not depend on the directions of joints. Needs C at the pose of the
-    /// scratch.
+    /// lengths, and for the rotation of each body the distance of its farthest joint, if it has one
+    /// that is more than rounding. Unlike an equilibration it does not depend on the directions of
+    /// joints. Needs the poses of the scratch.
     #[must_use]
     pub fn felt_scaling(self, size: f64) -> Scaling {
         let layout = self.mechanism.layout();
         let mut scaling = Scaling::identity(layout.rows(), layout.n_v);
-        let arms = longest_arms(self.mechanism, self.s);
-        for (body, arm) in arms.into_iter().enumerate() {
+        let arms = farthest_joints(self.mechanism, self.s).into_iter();
+        for (body, arm) in arms.enumerate().filter(|(_, arm)| *arm != 0.0) {
             let exponent = (size / arm).log2().round();
             if exponent.is_finite() {
                 scaling.cols[layout.space.rotations_of(body)].fill(exponent as i32);
