@@ -90,9 +90,9 @@ impl UnitError {
 }
 
 /// Compares the components of all reactions in all frames, at a state whose rank has been decided:
-/// which of them are unique, and which depend on the choice made by a least norm. Only the rank and
-/// the residual of the constraints are taken from the decision. Torques are listed with the global
-/// frame.
+/// which of them are unique, and which depend on the choice made by a least norm. The rank is read
+/// again from what the entries of C are known to; within a stated tolerance it is that of the
+/// decision. Torques are listed with the global frame.
 ///
 /// # Errors
 /// - [`UnitError::Choice`]: there is no least norm.
