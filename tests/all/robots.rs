@@ -9,6 +9,7 @@
 use std::fmt::Write;
 
 use lab::numbers::Numbers;
+use model::System;
 use pfaff::AssembledScene;
 use pfaff::prelude::*;
 
