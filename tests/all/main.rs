@@ -1,6 +1,7 @@
 //! All tests that need more than one crate, in one binary.
 
 mod actuators;
+mod agreement;
 mod allocations;
 mod along_motion;
 mod bad_matrices;
@@ -37,6 +38,7 @@ mod plain;
 mod planted_matrices;
 mod planted_mechanisms;
 mod robot_trolley;
+mod robots;
 mod second_order;
 mod singular_passages;
 mod space;

@@ -7,8 +7,8 @@ use model::start::{Metric, StartVelocity, assemble, consistent_velocity, nearest
 use model::{Assembly, Mechanism, Scratch, StartError, StartOptions, System};
 use rank::{KeptRowsError, RankStatus};
 use solvability::{
-    ConstraintLevel, Contradiction, RowDecision, Rows, decide_rows_dropping, rows as rows_of,
-    rows_of_rank,
+    ConstraintLevel, Contradiction, RowDecision, Rows, contradicting_drives, decide_rows_dropping,
+    rows as rows_of, rows_of_rank,
 };
 
 use crate::code::SharedCode;
@@ -75,16 +75,16 @@ impl Prepared {
         solve::mass_spread(&self.mechanism, self.assembly.size)
     }
 
-    /// The same mechanism on other rows: those that have missed are kept, each instead of the row
-    /// that takes the largest part in its dependency at the start. Returns `None` if these rows
-    /// cannot be dropped together, or for a component of another mechanism.
+    /// Other rows to drop: those that have missed are kept, each instead of the row that takes the
+    /// largest part in its dependency at the start. Returns `None` if these rows cannot be dropped
+    /// together, or for a component of another mechanism.
     ///
     /// # Errors
-    /// As [`prepare`].
-    pub fn on_other_rows(&self, misfits: &[Misfit]) -> Result<Option<Self>, MotionError> {
-        let Some(found) = &self.decided else {
+    /// If the start cannot be evaluated.
+    pub fn other_rows(&self, misfits: &[Misfit]) -> Result<Option<Vec<usize>>, MotionError> {
+        if self.decided.is_none() {
             return Ok(None);
-        };
+        }
         let mut dropped = self.decision.dropped.clone();
         let mut motion = KeptRowMotion::new(self)?;
         for misfit in misfits {
@@ -98,8 +98,20 @@ impl Prepared {
             }
         }
         dropped.sort_unstable();
+        Ok(Some(dropped))
+    }
+
+    /// The same mechanism with these rows dropped. Returns `None` if they cannot be dropped together,
+    /// or for a component of another mechanism.
+    ///
+    /// # Errors
+    /// As [`prepare`].
+    pub fn dropping(&self, dropped: &[usize]) -> Result<Option<Self>, MotionError> {
+        let Some(found) = &self.decided else {
+            return Ok(None);
+        };
         let (mechanism, assembly) = (self.mechanism.clone(), self.assembly.clone());
-        let choice = RowChoice::Drop(dropped);
+        let choice = RowChoice::Drop(dropped.to_vec());
         match on_rows(mechanism, assembly, Arc::clone(found), &self.start, &choice) {
             Err(MotionError::Rows(_)) => Ok(None),
             other => other.map(Some),
@@ -349,7 +361,12 @@ pub fn start_velocity(
             &free.v
         }
     };
-    let all = rows.contradictions(mechanism, 0.0, q, v)?;
+    let mut all = rows.contradictions(mechanism, 0.0, q, v)?;
+    if all.is_empty() && mechanism.has_tolerances() && rows.all.redundancy > 0 {
+        // Data within the tolerance may explain what a joint misses where a drive moves it. What a
+        // drive asks is compared with what the joints allow, here as in a check of the drives.
+        all = contradicting_drives(mechanism, 0.0, q)?;
+    }
     let is_late = |c: &Contradiction| c.level == ConstraintLevel::Acceleration;
     let (late, now): (Vec<_>, Vec<_>) = all.into_iter().partition(is_late);
     match now.into_iter().next() {

@@ -80,7 +80,8 @@ pub(crate) fn along_z(z: Vector3<f64>) -> UnitQuaternion<f64> {
     }
     let axis = Vector3::z().cross(&z);
     let angle = axis.norm().atan2(z.z);
-    let axis = if axis.amax() > 0.0 {
+    // Across a vector along z only rounding is left, and it has no direction.
+    let axis = if axis.amax() > model::ROUNDING {
         crate::findings::unit(axis)
     } else {
         Vector3::x()

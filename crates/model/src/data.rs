@@ -155,6 +155,11 @@ impl<'m> Data<'m> {
         })
     }
 
+    /// Whether a tolerance is stated for any number.
+    pub(crate) fn has_tolerances(self) -> bool {
+        self.0.has_tolerances()
+    }
+
     /// Number of values stored by all constraints.
     #[must_use]
     pub fn count(self) -> usize {

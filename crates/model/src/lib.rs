@@ -43,6 +43,8 @@
 //! | `called` | forces that call a function of the caller |
 //! | [`reaction`] | multipliers to forces and torques |
 
+mod agreement;
+mod arms;
 mod body;
 mod called;
 pub mod codes;
@@ -72,6 +74,7 @@ mod uncertainty;
 mod vectors;
 pub mod words;
 
+pub use agreement::{ConstraintLevel, Level, is_at_rest};
 pub use called::{BodyState, CallError, CalledWrench, DriveState, Wrench};
 pub use data::{Data, DataBlock, DataGradients, DataUnit, ForceDerivatives, SHARED, explained};
 pub use description::{

@@ -19,6 +19,7 @@ mod work;
 
 use crate::body::BodyRecord;
 use crate::observed::Observed;
+use crate::size::are_apart;
 use crate::space::{Space, SpaceKind, in_space};
 use crate::system::Layout;
 use crate::tolerance::Tolerance;
@@ -247,5 +248,12 @@ impl Mechanism {
     #[must_use]
     pub fn reach(&self, body: usize) -> f64 {
         self.reach[body]
+    }
+
+    /// Whether a length in a body (m), such as the distance of a joint from its centre, is more than
+    /// the rounding of its longest arm.
+    #[must_use]
+    pub fn is_length(&self, body: usize, length: f64) -> bool {
+        are_apart(length, self.reach(body))
     }
 }

@@ -2,13 +2,13 @@
 //! that cancel in it, so that nothing depends on units, on the size of a mechanism or on its
 //! position.
 
-use std::collections::BTreeSet;
 use std::ops::Range;
 
 use linalg::Scaling;
 
+use crate::arms::farthest_joints;
 use crate::mechanism::Mechanism;
-use crate::space::{difference, norm};
+use crate::space::norm;
 use crate::system::{Scratch, System};
 
 /// Sizes with which residuals of a mechanism are compared, at the pose of a scratch. Positions need
@@ -33,20 +33,23 @@ impl Scales<'_> {
     /// longest arm of its body, because it is accurate to the rounding of the arms. Needs C.
     #[must_use]
     pub fn position(self, i: usize) -> f64 {
-        let space = self.mechanism.space();
         let counted = self.counted(i);
-        let term = |(j, c): (usize, f64)| {
-            let at = self.s.bodies.position(space.body_of(j), space.dof_of(j));
-            let turns = if space.is_rotation(j) { counted } else { 0.0 };
-            let (at, least) = (at.abs().max(turns), least(self.mechanism, j));
-            c.abs() * if at > least { at } else { least }
-        };
+        let term = |(j, c): (usize, f64)| c.abs() * self.coordinate(j, counted);
         self.mechanism.layout().row(self.s, i).map(term).sum()
+    }
+
+    /// Size of the coordinate of column j of C; `counted` is the largest counted angle of its row.
+    pub(crate) fn coordinate(self, j: usize, counted: f64) -> f64 {
+        let space = self.mechanism.space();
+        let at = self.s.bodies.position(space.body_of(j), space.dof_of(j));
+        let turns = if space.is_rotation(j) { counted } else { 0.0 };
+        let (at, least) = (at.abs().max(turns), least(self.mechanism, j));
+        if at > least { at } else { least }
     }
 
     /// The largest counted angle of the joint or drive of a row (rad): its digits are those of all
     /// its turns.
-    fn counted(self, i: usize) -> f64 {
+    pub(crate) fn counted(self, i: usize) -> f64 {
         let owner = self.mechanism.layout().owners.get(i);
         let of_row = owner.map(|id| &self.mechanism.elements.constraints[id.0]);
         let Some(c) = of_row.filter(|c| c.spec().turns > 0) else {
@@ -62,28 +65,34 @@ impl Scales<'_> {
     /// longest arm of the body. Needs C at the pose of the scratch; allocates.
     #[must_use]
     pub fn entry_bounds(self, i: usize) -> Vec<(usize, f64)> {
-        let row: Vec<(usize, f64)> = self.mechanism.layout().row(self.s, i).collect();
+        let mut bounds = Vec::new();
+        self.visit_bounds(i, |j, bound| bounds.push((j, bound)));
+        bounds.sort_unstable_by_key(|bound| bound.0);
+        bounds
+    }
+
+    /// Calls `visit` with the columns and bounds of [`Scales::entry_bounds`], body by body.
+    pub(crate) fn visit_bounds(self, i: usize, mut visit: impl FnMut(usize, f64)) {
         let space = self.mechanism.space();
-        let bodies: BTreeSet<usize> = row.iter().map(|(j, _)| space.body_of(*j)).collect();
-        let bounds = bodies.into_iter().flat_map(|body| {
-            let entry = |column: usize| {
-                let entries = row.iter().filter(|(j, _)| *j == column);
-                entries.map(|(_, c)| c).sum::<f64>()
-            };
+        let row = || self.mechanism.layout().row(self.s, i);
+        for (k, (first, _)) in row().enumerate() {
+            let body = space.body_of(first);
+            if row().take(k).any(|(j, _)| space.body_of(j) == body) {
+                continue;
+            }
             let size = |columns: Range<usize>| {
                 let mut entries = [0.0; 3];
-                entries
-                    .iter_mut()
-                    .zip(columns)
-                    .for_each(|(x, j)| *x = entry(j));
+                for (j, c) in row().filter(|(j, _)| columns.contains(j)) {
+                    entries[j - columns.start] += c;
+                }
                 norm(&entries)
             };
             let force = size(space.translations_of(body));
             let turn = size(space.rotations_of(body)).max(force * self.mechanism.reach(body));
-            let bound = move |j| if space.is_rotation(j) { turn } else { force };
-            space.columns_of(body).map(move |j| (j, bound(j)))
-        });
-        bounds.collect()
+            for j in space.columns_of(body) {
+                visit(j, if space.is_rotation(j) { turn } else { force });
+            }
+        }
     }
 
     /// Writes the size of the coordinate of each column of C, n_v: with [`Scales::entry_bounds`] of
@@ -147,21 +156,15 @@ impl Scales<'_> {
     }
 
     /// Scaling of the columns of a dimensionless C by the arms of the bodies: one unit for all
-    /// lengths, and for the rotation of each body the distance of its farthest joint, if it has
-    /// one. Unlike an equilibration it does not depend on the directions of joints. Needs the poses
-    /// of the scratch.
+    /// lengths, and for the rotation of each body the distance of its farthest joint, if it has one
+    /// that is more than rounding. Unlike an equilibration it does not depend on the directions of
+    /// joints. Needs the poses of the scratch.
     #[must_use]
     pub fn felt_scaling(self, size: f64) -> Scaling {
-        let mut arms = vec![0.0_f64; self.mechanism.bodies().len()];
-        for id in self.mechanism.layout().constraint_ids() {
-            let place = self.mechanism.reactions(self.s).place(id);
-            for k in self.mechanism.elements.constraints[id.0].site.moving() {
-                arms[k] = arms[k].max(norm(&difference(place, self.s.bodies.origin(k))));
-            }
-        }
         let layout = self.mechanism.layout();
         let mut scaling = Scaling::identity(layout.rows(), layout.n_v);
-        for (body, arm) in arms.into_iter().enumerate().filter(|(_, arm)| *arm > 0.0) {
+        let arms = farthest_joints(self.mechanism, self.s).into_iter();
+        for (body, arm) in arms.enumerate().filter(|(_, arm)| *arm != 0.0) {
             let exponent = (size / arm).log2().round();
             if exponent.is_finite() {
                 scaling.cols[layout.space.rotations_of(body)].fill(exponent as i32);

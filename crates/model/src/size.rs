@@ -8,6 +8,12 @@ use crate::uncertainty::ROUNDING;
 /// Points whose distance is at most this many roundings of their coordinates coincide.
 const COINCIDE: f64 = 1e3;
 
+/// Whether two points at this distance are apart: it is more than the rounding of the lengths that
+/// are added in their coordinates, the longest of which is `farthest`.
+pub(crate) fn are_apart(distance: f64, farthest: f64) -> bool {
+    distance > COINCIDE * ROUNDING * farthest
+}
+
 /// Diagonal of the box around all bodies and joints; if these coincide, around all points of the
 /// joints; 1 m if these coincide as well.
 #[must_use]
@@ -51,5 +57,5 @@ fn diagonal(points: &[[f64; 3]]) -> Option<f64> {
     };
     let size = norm(&[0, 1, 2].map(span));
     let farthest = points.iter().map(|p| norm(p)).fold(0.0, f64::max);
-    (size > COINCIDE * ROUNDING * farthest).then_some(size)
+    are_apart(size, farthest).then_some(size)
 }

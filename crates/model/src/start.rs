@@ -26,6 +26,7 @@ pub(crate) mod within;
 
 use linalg::DampedRows;
 
+use crate::agreement::Level;
 use crate::mechanism::{Mechanism, initialise, unmet_requirement, unmet_rows};
 use crate::system::{Scratch, System};
 use metric::{DAMPING, ROUNDINGS, Restricting, SMALL_CORRECTION, dense_rows, largest, weights};
@@ -322,6 +323,10 @@ fn nearest(
         if within && is_at_rest && residual.is_finite() && within::is_within(mechanism, s, rows) {
             return Ok(q);
         }
+        // Rows are known to the rounding of terms that are not present at this orientation, too.
+        if is_last && rows.iter().all(|&r| is_rounding(mechanism, s, r)) {
+            return Ok(q);
+        }
         if is_last || !residual.is_finite() {
             return Err(StartError::NoAssembly {
                 misfits: approach::misfits(mechanism, s, rows),
@@ -348,6 +353,12 @@ fn nearest(
         q = mechanism.space().displaced(described, 1.0, &step);
     }
     unreachable!("the last iteration returns")
+}
+
+/// Whether the residual of a row of Φ is the rounding of its terms at any orientation.
+fn is_rounding(mechanism: &Mechanism, s: &Scratch, row: usize) -> bool {
+    let terms = mechanism.scales(s).terms(row, &Level::positions());
+    s.phi[row].abs() <= ROUNDINGS * ROUNDINGS * f64::EPSILON * terms
 }
 
 /// The joints and drives that miss at coordinates q, the worst first.

@@ -113,10 +113,12 @@ impl Scales<'_> {
                 let body = layout.space.body_of(column);
                 let of_body = forces.iter().find(|(other, ..)| *other == body);
                 let (_, force, magnitude) = of_body.copied().unwrap_or_default();
+                // A force that is the rounding of its terms is none, whichever way the axes point.
+                let has_force = force > ROUNDING * magnitude;
                 u.push(if layout.space.is_rotation(column) {
                     let lever = force * self.mechanism.reach(body);
                     // A rotation without a force, like that of a rolling wheel, has no lever.
-                    let moved = if force > 0.0 || forces.is_empty() {
+                    let moved = if has_force || forces.is_empty() {
                         shift
                     } else {
                         0.0

@@ -7,7 +7,8 @@ pub(crate) mod requests;
 use std::sync::Arc;
 
 use linalg::Matrix;
-use model::{ConstraintId, Known, Mechanism, System};
+use model::start::scene_size;
+use model::{ConstraintId, Known, Mechanism, System, is_at_rest};
 use rank::Limits;
 use scene::Scene;
 use solvability::{
@@ -284,7 +285,7 @@ impl<'a> ConfigurationAnalysis<'a> {
             return Ok(None);
         }
         let rank = decision.rank + decision.redundancy - generic.redundancy;
-        let moves = v.iter().any(|v| *v != 0.0);
+        let moves = !is_at_rest(self.mechanism, scene_size(self.mechanism, q), v);
         // A mechanism that is rigid elsewhere moves among poses like this one, if it moves.
         let is_driven = self.mechanism.layout().rheonomic;
         let regular = match self.analysis.velocities - rank {

@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use dynamics::plan::Reactions;
-use dynamics::{MotionError, Plan, Prepared, RowChoice, Sample, Stop, Summary, Wanted};
+use dynamics::{MotionError, Plan, Prepared, Sample, Stop, Summary, Wanted};
 use report::Ending;
 use report::documents::SpreadDocument;
 
@@ -59,14 +59,12 @@ impl Path {
         if summary.misfits.is_empty() {
             return None;
         }
-        let other = match prepared.on_other_rows(&summary.misfits) {
+        let dropped = prepared.other_rows(&summary.misfits).ok()??;
+        let other = match prepared.dropping(&dropped) {
             Ok(other) => other?,
-            Err(error) => return Some(SpreadDocument::stopped(Vec::new(), &error)),
+            Err(error) => return Some(SpreadDocument::stopped(&dropped, &error)),
         };
-        let RowChoice::Drop(dropped) = &other.choice else {
-            return None;
-        };
-        let mut spread = SpreadDocument::new(dropped);
+        let mut spread = SpreadDocument::new(&dropped);
         match self.compare(plan, &other, &mut spread, stop) {
             Ok(()) => {}
             Err(error) => spread.error = Some(error.to_string()),

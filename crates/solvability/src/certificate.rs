@@ -15,7 +15,7 @@ use model::start::scene_size;
 use model::{Known, Mechanism, Polished, Scratch, System};
 use rank::{
     Grounds, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankError,
-    RankReading, certify_rank,
+    RankReading, WeakestCombination, certify_rank,
 };
 
 use crate::numerical_rank::{Nearness, Question, Reading, UncertainMatrix};
@@ -212,8 +212,8 @@ impl<'a> Rows<'a> {
         if !decision.is_decided() {
             return None;
         }
-        let physical = weakest_as_felt(mechanism, s, (self.size, &self.matrix()), decision)
-            .filter(|weakest| weakest.sigma < NEARLY_REDUNDANT);
+        let of_size = (self.size, &self.matrix());
+        let physical = weakest_below(NEARLY_REDUNDANT, mechanism, s, of_size, decision);
         // Below the resolution of `f64` the certificate is more accurate.
         let certified = decision.nearly_redundant().cloned();
         [physical, certified]
@@ -246,24 +246,26 @@ fn with_nearness(mut decision: RankDecision, nearness: Option<Nearness>) -> Rank
     decision
 }
 
-/// The combination of kept rows that comes closest to zero at the pose of the scratch, with each
-/// row scaled to largest entry 1 and rotations measured by the arms of their bodies. `c` is C
-/// without dimensions for a mechanism of this size.
-fn weakest_as_felt(
+/// The combination of kept rows that comes closest to zero at the pose of the scratch, if it does so
+/// to less than `limit`, with each row scaled to largest entry 1. `c` is C without dimensions for a
+/// mechanism of this size.
+///
+/// The rotations of a body have two natural units: the arm of the body, and the size of the
+/// mechanism. Each makes rows parallel that are not: the size, those of a small part of a large
+/// mechanism; the arms, those that compare the angles of bodies of different size, in which the
+/// larger body then takes no part. So both have to show the combination. The weights are those by
+/// the arms.
+fn weakest_below(
+    limit: f64,
     mechanism: &Mechanism,
     s: &Scratch,
     (size, c): (f64, &Matrix),
     decision: &RankDecision,
 ) -> Option<NearlyRedundant> {
+    let is_below = |weakest: &WeakestCombination| weakest.sigma < limit;
     let felt = mechanism.scales(s).felt_scaling(size).apply(c);
-    let mut kept = felt.select_rows(&decision.kept);
-    for i in 0..kept.nrows() {
-        let largest = kept.row(i).iter().fold(0.0_f64, |a, c| a.max(c.abs()));
-        if largest > 0.0 {
-            kept.row_mut(i).iter_mut().for_each(|c| *c /= largest);
-        }
-    }
-    let weakest = rank::weakest_combination(&kept)?;
+    let weakest = weakest_kept(&felt, decision).filter(is_below)?;
+    weakest_kept(c, decision).filter(is_below)?;
     let mut direction = vec![0.0; decision.rank + decision.redundancy];
     for (&row, weight) in decision.kept.iter().zip(weakest.weights) {
         direction[row] = weight;
@@ -274,10 +276,22 @@ fn weakest_as_felt(
     })
 }
 
+/// The weakest combination of the kept rows of a matrix, each scaled to largest entry 1.
+fn weakest_kept(c: &Matrix, decision: &RankDecision) -> Option<WeakestCombination> {
+    let mut kept = c.select_rows(&decision.kept);
+    for i in 0..kept.nrows() {
+        let largest = kept.row(i).iter().fold(0.0_f64, |a, c| a.max(c.abs()));
+        if largest > 0.0 {
+            kept.row_mut(i).iter_mut().for_each(|c| *c /= largest);
+        }
+    }
+    rank::weakest_combination(&kept)
+}
+
 /// Returns the combination of kept rows that cannot be distinguished from a dependence in `f64` at
-/// the pose of the scratch, with rotations measured by the arms of the bodies; C must have been
-/// evaluated at coordinates q. The rank may be decided nevertheless, because equilibration scales
-/// up a column whose only entries are the misalignment. The misalignment is part of the data as
+/// the pose of the scratch, with rotations measured by the arms of the bodies and by the size of the
+/// mechanism; C must have been evaluated at coordinates q. The rank may be decided nevertheless,
+/// because equilibration scales up a column whose only entries are the misalignment. The misalignment is part of the data as
 /// read, but velocities along these rows are accurate only to the rounding of the state divided by
 /// σ. Allocates.
 #[must_use]
@@ -289,8 +303,7 @@ pub fn inseparable(
 ) -> Option<NearlyRedundant> {
     let size = scene_size(mechanism, q);
     let c = dimensionless(mechanism, s, size);
-    weakest_as_felt(mechanism, s, (size, &c), decision)
-        .filter(|weakest| weakest.sigma < NEARLY_SINGULAR)
+    weakest_below(NEARLY_SINGULAR, mechanism, s, (size, &c), decision)
 }
 
 /// Those of these rows that can hold together away from q, ascending: all of them, unless a

@@ -15,7 +15,7 @@ use rank::{KeptRowsError, RankStatus};
 
 pub use chosen::Chosen;
 pub(crate) use equations::solution_under;
-pub use equations::{Equations, Solution, solution};
+pub use equations::{Equations, RowTerms, Solution, solution};
 pub use error::ChoiceError;
 pub use minimise::minimise;
 pub use value::{Label, Value};

@@ -9,54 +9,18 @@
 
 mod demands;
 mod drives;
+mod joints_first;
 
-use crate::limits::REST;
-use crate::pose::velocity_units;
 use std::collections::BTreeSet;
 
 use model::start::scene_size;
-use model::{ConstraintId, Mechanism, RowLabel, Scratch, System, explained};
+use model::{ConstraintId, ConstraintLevel, Level, Mechanism, RowLabel, Scratch, System};
 use rank::{Circuit, RankDecision};
 
 use crate::state::{self, StateError};
 use crate::words;
 pub use demands::Demand;
 pub use drives::{contradicting_drives, contradicting_drives_along};
-
-/// The level at which rows are compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ConstraintLevel {
-    /// Φ = 0
-    Position,
-    /// C·v = b
-    Velocity,
-    /// C·a = Γ
-    Acceleration,
-}
-
-impl ConstraintLevel {
-    /// Unit of a row, for lengths or for angles.
-    fn unit(self, angular: bool) -> &'static str {
-        match (self, angular) {
-            (Self::Position, false) => "m",
-            (Self::Velocity, false) => "m/s",
-            (Self::Acceleration, false) => "m/s²",
-            (Self::Position, true) => "rad",
-            (Self::Velocity, true) => "rad/s",
-            (Self::Acceleration, true) => "rad/s²",
-        }
-    }
-}
-
-impl std::fmt::Display for ConstraintLevel {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Position => "positions",
-            Self::Velocity => "velocities",
-            Self::Acceleration => "accelerations",
-        })
-    }
-}
 
 /// Redundant rows that contradict each other.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -208,12 +172,11 @@ pub struct Ranks<'a> {
 /// levels, the largest excess over the tolerance first. The kept rows must be satisfied: `Φ_K = 0`
 /// and `C_K·v = b_K` to rounding.
 ///
-/// The sum over a circuit is compared with the size of the terms that cancel in it, times the noise
-/// of the coefficients, [`rank::support_tolerance`]: near a singular configuration the coefficients
-/// that express dropped rows by kept rows have errors of 1/σ_r roundings, and the agreement cannot
-/// be better than that. Only rows that are coupled with those of the circuit count, so that large
-/// terms elsewhere do not hide a contradiction. Velocities are taken as accurate to the same
-/// fraction of the largest one.
+/// The sum over a circuit is compared with the size of the terms that are added in its rows
+/// ([`model::Scales::terms`]), times the noise of the coefficients, [`rank::support_tolerance`]: near
+/// a singular configuration the coefficients that express dropped rows by kept rows have errors of
+/// 1/σ_r roundings, and the agreement cannot be better than that. Only rows that are coupled with
+/// those of the circuit count, so that large terms elsewhere do not hide a contradiction.
 ///
 /// # Errors
 /// If the state has the wrong number of values, or one of them is not finite.
@@ -233,55 +196,29 @@ pub fn contradictions(
     mechanism.twist(v, &mut s);
     mechanism.gamma(&mut s);
     let size = scene_size(mechanism, q);
-    let prescribed = |i: usize| mechanism.scales(&s).prescribed(i);
-    // Velocities are accurate to the rounding of the largest one, even those of slow bodies.
-    let noise = rank::support_tolerance(ranks.all).max(f64::EPSILON);
-    let units = velocity_units(mechanism, size);
-    let fastest = v.iter().zip(&units).map(|(v, unit)| (v / unit).abs());
-    let blur = noise * fastest.fold(0.0, f64::max);
-    let blurred = v.iter().zip(&units).map(|(v, unit)| v.abs() + blur * unit);
-    let blurred: Vec<f64> = blurred.collect();
-    let levels = [
-        Comparison {
-            level: ConstraintLevel::Position,
+    let scales = mechanism.scales(&s);
+    let compared = |level: Level<'_>, decision, values| {
+        let comparison = Comparison {
+            level,
             prescribed: &s,
-            decision: ranks.holonomic,
-            values: &s.phi,
-            scale: &|i| mechanism.scales(&s).position(i),
-            v: None,
+            decision,
+            values,
+            scale: &|i| scales.terms(i, &level),
             share: 0.0,
-        },
-        Comparison {
-            level: ConstraintLevel::Velocity,
-            prescribed: &s,
-            decision: ranks.all,
-            values: &s.b,
-            scale: &|i| mechanism.scales(&s).velocity(i, v) + prescribed(i),
-            v: Some(v),
-            share: 0.0,
-        },
-        Comparison {
-            level: ConstraintLevel::Acceleration,
-            prescribed: &s,
-            decision: ranks.all,
-            values: &s.gamma,
-            scale: &|i| {
-                let [terms, blurred] =
-                    [v, &blurred].map(|v| mechanism.scales(&s).acceleration(i, v, size));
-                let rest = REST.powi(2) * mechanism.scales(&s).position(i);
-                terms + (blurred - terms + rest) / noise + prescribed(i)
-            },
-            v: Some(v),
-            share: 0.0,
-        },
-    ];
+        };
+        comparison.contradictions(mechanism, t)
+    };
     // Rows that are redundant within a tolerance may part: then what they miss decides.
-    let compared = levels
-        .iter()
-        .filter(|c| c.level != ConstraintLevel::Acceleration || !mechanism.has_tolerances());
-    let mut found: Vec<Contradiction> = compared
-        .flat_map(|level| level.contradictions(mechanism, t))
-        .collect();
+    let mut found = [
+        compared(Level::positions(), ranks.holonomic, &s.phi),
+        compared(Level::velocities(mechanism, size, v), ranks.all, &s.b),
+        compared(
+            Level::accelerations(mechanism, size, v, None),
+            ranks.all,
+            &s.gamma,
+        ),
+    ]
+    .concat();
     let excess = |c: &Contradiction| c.size / c.tolerance;
     found.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
     Ok(found)
@@ -289,14 +226,12 @@ pub fn contradictions(
 
 /// Values of all rows at one level, and the size of their terms.
 struct Comparison<'a> {
-    level: ConstraintLevel,
+    level: Level<'a>,
     /// Scratch in which functions of time have been evaluated.
     prescribed: &'a Scratch,
     decision: &'a RankDecision,
     values: &'a [f64],
     scale: &'a dyn Fn(usize) -> f64,
-    /// The velocities, if they are known: data within a stated tolerance change what rows ask for.
-    v: Option<&'a [f64]>,
     /// Contradictions below this fraction of the terms are not reported, even if above rounding.
     share: f64,
 }
@@ -353,8 +288,12 @@ impl Comparison<'_> {
         let terms = || circuit.rows.iter().copied().zip(&circuit.coefficients);
         let sum: f64 = terms().map(|(i, z)| z * self.values[i]).sum();
         let equilibrated = terms().map(|(i, z)| z.abs() / self.decision.scaling.row_factor(i));
+        let scales = mechanism.scales(self.prescribed);
+        let rest: f64 = terms()
+            .map(|(i, z)| z.abs() * scales.rest(i, &self.level))
+            .sum();
         let tolerance =
-            noise * equilibrated.fold(0.0, f64::max) + self.within_data(mechanism, circuit);
+            noise * equilibrated.fold(0.0, f64::max) + rest + self.within_data(mechanism, circuit);
         if sum.abs() <= tolerance {
             return None;
         }
@@ -364,7 +303,7 @@ impl Comparison<'_> {
             layout.groups[owner].spec.rheonomic.then_some(owner)
         };
         let drives: BTreeSet<usize> = terms().filter_map(|(i, _)| driven_by(i)).collect();
-        let forced = match (drives.is_empty(), self.level) {
+        let forced = match (drives.is_empty(), self.level.of) {
             (true, ConstraintLevel::Acceleration) => self.forcing(mechanism, &circuit.rows),
             _ => BTreeSet::new(),
         };
@@ -386,9 +325,9 @@ impl Comparison<'_> {
         Some(Contradiction {
             time,
             rows: terms().map(|(i, _)| layout.labels[i].clone()).collect(),
-            level: self.level,
+            level: self.level.of,
             size,
-            unit: self.level.unit(mechanism.layout().is_angular(row)),
+            unit: self.level.of.unit(mechanism.layout().is_angular(row)),
             tolerance,
             demands: demands.collect(),
             drives: drives.len(),
@@ -408,14 +347,7 @@ impl Comparison<'_> {
         }
         let (data, s) = (mechanism.data(), self.prescribed);
         let mut gradient = vec![0.0; data.count()];
-        match (self.level, self.v) {
-            (ConstraintLevel::Position, _) => data.add_phi(s, &weights, 1.0, &mut gradient),
-            (ConstraintLevel::Velocity, Some(v)) => {
-                data.add_power(s, &weights, v, 1.0, &mut gradient);
-            }
-            _ => return 0.0,
-        }
-        explained(&data.blocks(s), &gradient)
+        data.explained(s, &data.blocks(s), &weights, &self.level, &mut gradient)
     }
 
     /// Drives that move the bodies of these rows and, together with the joints, leave them no other

@@ -85,12 +85,11 @@ pub use analysis::{
 pub use certificate::{certify, inseparable};
 pub use choices::{
     Choice, ChoiceError, Chosen, Compliance, Distribution, Equations, Label, NormWeights,
-    ReactionValues, Solution, Value, minimise, solution,
+    ReactionValues, RowTerms, Solution, Value, minimise, solution,
 };
 pub use error::AnalysisError;
 pub use existence::{
-    ConstraintLevel, Contradiction, Demand, Ranks, contradicting_drives,
-    contradicting_drives_along, contradictions,
+    Contradiction, Demand, Ranks, contradicting_drives, contradicting_drives_along, contradictions,
 };
 pub use explain::{
     Explanation, ExplanationError, FreeDirection, Mixing, ReactionExplanation, SelfStress, explain,
@@ -109,6 +108,7 @@ pub use limits::{CARRIED_VECTORS, FRAGILE, KERNEL_MAX, MOTIONS_REPORTED, MOVED, 
 pub use make_unique::{Allowed, Proposal, Proposals, make_unique};
 pub use matrices::{QueryError, Solvability};
 pub use memory::memory_of_verdicts;
+pub use model::ConstraintLevel;
 pub use moments::MomentVerdict;
 pub use parts::{Extent, PartAnalysis, PartDecision};
 pub use pose::{decide, decide_dropping, decide_holonomic};

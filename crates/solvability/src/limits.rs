@@ -249,11 +249,6 @@ pub(crate) const POINTS_APART: f64 = 0.1;
 
 // Drives that contradict each other.
 
-/// Rates of what is at rest to rounding (1/s): it moves by less than a hundred roundings of its
-/// place in a second.
-/// Unit: 1/s. Less: rounding is a motion. More: slow motions are at rest. Test: none.
-pub(crate) const REST: f64 = 100.0 * f64::EPSILON;
-
 /// Positions after the start at which drives are compared along a motion.
 /// Unit: positions. Less: contradictions later on are not found. More: time. Test:
 /// `motors_that_part_later_are_named_with_the_time`.

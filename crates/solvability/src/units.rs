@@ -17,7 +17,7 @@ use rank::{RankDecision, RankError};
 
 pub use rewrite::{Dimension, Units};
 
-use crate::choices::{ChoiceError, Equations, minimise};
+use crate::choices::{ChoiceError, Equations, RowTerms, minimise};
 use crate::groups::{Configuration, LinearForm, RequestError, check_finite};
 use crate::matrices::Solvability;
 use rewrite::Rewriting;
@@ -90,9 +90,9 @@ impl UnitError {
 }
 
 /// Compares the components of all reactions in all frames, at a state whose rank has been decided:
-/// which of them are unique, and which depend on the choice made by a least norm. Only the rank and
-/// the residual of the constraints are taken from the decision. Torques are listed with the global
-/// frame.
+/// which of them are unique, and which depend on the choice made by a least norm. The rank is read
+/// again from what the entries of C are known to; within a stated tolerance it is that of the
+/// decision. Torques are listed with the global frame.
 ///
 /// # Errors
 /// - [`UnitError::Choice`]: there is no least norm.
@@ -117,9 +117,13 @@ pub(crate) fn check_equations(
 ) -> Result<Vec<UnitCheck>, UnitError> {
     let numbers = Numbers::of(configuration)?;
     let mut checks = numbers.checks.clone();
+    let decision = configuration.solvability.decision();
+    if !configuration.reactions.mechanism.has_tolerances() {
+        real.multipliers(decision)?;
+    }
     if configuration.solvability.null_space().ncols() == 0 {
         // Starts from one solution of the equations.
-        let lambda = real.multipliers(configuration.solvability.decision())?;
+        let lambda = real.solution_of_kept(&decision.into())?.multipliers;
         for (check, form) in checks.iter_mut().zip(&numbers.forms) {
             check.value = form.value(&lambda);
         }
@@ -173,7 +177,8 @@ impl Rewritten {
     /// One solution in these units; the given equations are in SI units.
     fn multipliers(&self, equations: &Equations) -> Result<Vec<f64>, ChoiceError> {
         let equations = self.rewriting.equations(equations);
-        equations.multipliers(self.solvability.decision())
+        let solution = equations.solution_of_kept(&self.solvability.decision().into())?;
+        Ok(solution.multipliers)
     }
 }
 
@@ -229,10 +234,16 @@ impl<'a> Numbers<'a> {
     /// Decides the free directions in other units.
     fn rewritten(&self, equations: &Equations, units: Units) -> Result<Rewritten, UnitError> {
         let decided = self.configuration.solvability.decision();
-        let kinds = self.configuration.layout().column_kinds();
-        let rewriting = Rewriting::new(equations, units, &kinds);
+        let layout = self.configuration.layout();
+        let rewriting = Rewriting::new(equations, units, &layout.column_kinds());
         let equations = rewriting.equations(equations);
-        let decision = rank::decide(&equations.c, decided.evidence.constraint_residual)?;
+        let dimensions = layout.dimension_scaling(self.configuration.reactions.size);
+        let known = rewriting.matrix(&dimensions.undo(&self.configuration.uncertainty));
+        let mut decision = rank::decide(&equations.c, &known)?;
+        // Data within a stated tolerance may have a lower rank than any matrix shows.
+        if self.configuration.reactions.mechanism.has_tolerances() {
+            decision = rank::decide_of_rank(&equations.c, &known, decided.rank)?;
+        }
         if decision.rank != decided.rank {
             return Err(UnitError::RankChanges {
                 rank: decided.rank,
@@ -296,7 +307,10 @@ impl<'a> Numbers<'a> {
         Equations {
             force: kinds.iter().enumerate().map(load).collect(),
             gamma: vec![0.0; rows],
-            gamma_terms: vec![0.0; rows],
+            terms: RowTerms {
+                gamma: vec![0.0; rows],
+                ..equations.terms.clone()
+            },
             ..equations.clone()
         }
     }
@@ -319,7 +333,7 @@ impl<'a> Numbers<'a> {
                 ColumnKind::Translation => x.abs(),
                 ColumnKind::Rotation => x.abs() / size,
             });
-        let inertia = largest(&equations.mass) * largest(&equations.gamma_terms);
+        let inertia = largest(&equations.mass) * largest(&equations.terms.gamma);
         match forces.chain(loads).fold(inertia, f64::max) {
             0.0 => 1.0,
             scale => scale,

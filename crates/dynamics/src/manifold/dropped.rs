@@ -1,7 +1,7 @@
 //! Dropped rows: whether the kept rows imply them, and the residuals of all rows. The residual of a
 //! dropped row after projection certifies the redundancy at no extra cost.
 
-use model::System;
+use model::{ConstraintLevel, Level};
 
 use super::levels::largest;
 use crate::counts::{Counted, note};
@@ -72,16 +72,14 @@ pub(super) fn monitor(
     );
     let scales = at.mechanism.scales(&at.s);
     let rounding = scales.relative_residual(at.size, exact.copied());
-    let fastest = fastest(at, v);
-    let level = Level {
-        v: Some(v),
+    let check = Check {
+        level: Level::velocities(at.mechanism, at.size, v),
         share: share.max(STALLED_ROUNDINGS * rounding),
         residual: |i: usize| at.velocity_residual(i, v),
-        scale: |i: usize| fastest * at.row_size(i),
         most: f64::INFINITY,
         floor: |i: usize| AT_REST * at.row_size(i) / horizon,
     };
-    level.check(rows, at, &mut equations.misfits)?;
+    check.of(rows, at, &mut equations.misfits)?;
     Ok(found)
 }
 
@@ -89,15 +87,14 @@ pub(super) fn monitor(
 /// do not hold.
 pub(super) fn check_positions(equations: &mut KeptEquations<'_>) -> Result<(), MotionFault> {
     let (at, rows) = (&equations.at, &mut equations.position);
-    let level = Level {
-        v: None,
+    let check = Check {
+        level: Level::positions(),
         share: dropped_misfit(rows),
         residual: |i: usize| at.s.phi[i],
-        scale: |i| at.position_scale(i),
         most: POSITION_MISFIT,
         floor: |_| 0.0,
     };
-    level.check(rows, at, &mut equations.misfits)
+    check.of(rows, at, &mut equations.misfits)
 }
 
 /// Allowed residual of rows that depend on these, as a fraction of their terms: rounding of the
@@ -107,22 +104,12 @@ fn dropped_misfit(rows: &KeptRows) -> f64 {
     DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0)
 }
 
-/// The largest terms of a row of C·v, as a share of the row for a motion of the size of the
-/// mechanism (1/s): rows of lengths and of angles, and those with long arms, compare so.
-fn fastest(at: &Evaluation<'_>, v: &[f64]) -> f64 {
-    let rows = 0..at.mechanism.layout().rows();
-    let rates = rows.map(|i| at.velocity_scale(i, v) / at.row_size(i));
-    rates.filter(|rate| rate.is_finite()).fold(0.0, f64::max)
-}
-
-/// Residuals of rows at the level of positions or velocities, and the sizes of their terms.
-struct Level<'v, R, S, F> {
-    /// The velocities; `None` at the level of positions.
-    v: Option<&'v [f64]>,
+/// Residuals of dropped rows at the level of positions or of velocities.
+struct Check<'v, R, F> {
+    level: Level<'v>,
     /// Allowed residual of dropped rows, as a fraction of the terms.
     share: f64,
     residual: R,
-    scale: S,
     /// Largest allowed fraction, however much rounding of the kept rows explains: beyond it, it is
     /// not known whether the row holds.
     most: f64,
@@ -132,53 +119,64 @@ struct Level<'v, R, S, F> {
     floor: F,
 }
 
-impl<R, S, F> Level<'_, R, S, F>
+impl<R, F> Check<'_, R, F>
 where
     R: Fn(usize) -> f64,
-    S: Fn(usize) -> f64,
     F: Fn(usize) -> f64,
 {
     fn name(&self) -> &'static str {
-        match self.v {
-            None => "position",
-            Some(_) => "velocity",
+        if self.is_of_velocities() {
+            "velocity"
+        } else {
+            "position"
         }
+    }
+
+    fn is_of_velocities(&self) -> bool {
+        self.level.of == ConstraintLevel::Velocity
     }
 
     /// Returns an error for the first dropped row that the kept ones do not imply, not even for
     /// data within a stated tolerance.
-    fn check(
+    fn of(
         &self,
         rows: &mut KeptRows,
         at: &Evaluation<'_>,
         misfits: &mut Option<Box<Misfits>>,
     ) -> Result<(), MotionFault> {
+        let scales = at.mechanism.scales(&at.s);
+        let scale = |i: usize| scales.terms(i, &self.level);
+        // The terms that are present are a part of those, and less work.
+        let present = |i: usize| match self.level.of {
+            ConstraintLevel::Position => at.position_scale(i),
+            _ => 0.0,
+        };
         for k in 0..rows.dropped.len() {
             note(Counted::Monitors);
             let i = rows.dropped[k];
             let value = (self.residual)(i);
             let residual = value.abs();
             // Most rows agree to the rounding of their own terms.
-            if residual <= self.share * (self.scale)(i) {
+            if residual <= self.share * present(i) || residual <= self.share * scale(i) {
                 if let Some(misfits) = misfits {
-                    misfits.see(self.v.is_some(), i, value, None, at);
+                    misfits.see(self.is_of_velocities(), i, value, None, at);
                 }
                 continue;
             }
             rows.factor(at)?;
-            let implied = self.share * rows.implied_scale(at, i, &self.scale)?;
-            let mut tolerance = implied.min(self.most * (self.scale)(i));
+            let implied = self.share * rows.implied_scale(at, i, scale)?;
+            let mut tolerance = implied.min(self.most * scale(i));
             if residual > tolerance {
-                tolerance = tolerance.max((self.floor)(i));
+                tolerance = tolerance.max((self.floor)(i) + scales.rest(i, &self.level));
             }
             let is_rounding = residual <= tolerance;
             if let Some(misfits) = misfits {
                 let bound = if is_rounding {
                     None
                 } else {
-                    Some(misfits.bound((at, rows), i, self.v)?)
+                    Some(misfits.bound((at, rows), i, &self.level)?)
                 };
-                misfits.see(self.v.is_some(), i, value, bound, at);
+                misfits.see(self.is_of_velocities(), i, value, bound, at);
                 if let Some(bound) = bound {
                     if residual <= bound {
                         continue;

@@ -134,7 +134,14 @@ pub(super) fn correct_position(
     };
     let end = correct(&mut level, &limits)?;
     let (at, row) = (&equations.at, end.worst);
-    if end.is_reached {
+    // Rows are known to the rounding of terms that are not present at this orientation, too.
+    let (scales, level) = (at.mechanism.scales(&at.s), model::Level::positions());
+    let rounding = |i: usize| STALLED_ROUNDINGS * f64::EPSILON * scales.terms(i, &level);
+    let are_rounding = || {
+        let mut kept = equations.position.kept.iter();
+        kept.all(|&i| at.s.phi[i].abs() <= rounding(i))
+    };
+    if end.is_reached || are_rounding() {
         Ok(end.corrections)
     } else {
         Err(MotionFault::OffConstraints {

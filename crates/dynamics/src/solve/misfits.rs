@@ -6,7 +6,7 @@
 //! `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor is [`model::SHARED`]: the residual of rows that share a
 //! misfit, and the pose, which moves with the data.
 
-use model::{Bodies, DataBlock, RowLabel, System, explained};
+use model::{Bodies, DataBlock, Level, RowLabel, System};
 
 use super::evaluation::Evaluation;
 use super::rows::KeptRows;
@@ -83,22 +83,17 @@ impl Misfits {
         }
     }
 
-    /// What data within their tolerances explain of the residual of the dropped row i, for
-    /// velocities v or, without them, for positions. The rows must be factored.
+    /// What data within their tolerances explain of the residual of the dropped row i at a level.
+    /// The rows must be factored.
     pub(crate) fn bound(
         &mut self,
         (at, rows): (&Evaluation<'_>, &mut KeptRows),
         i: usize,
-        v: Option<&[f64]>,
+        level: &Level<'_>,
     ) -> Result<f64, MotionFault> {
         rows.dependency(at, i, &mut self.z)?;
-        self.gradient.fill(0.0);
-        let data = at.mechanism.data();
-        match v {
-            None => data.add_phi(&at.s, &self.z, 1.0, &mut self.gradient),
-            Some(v) => data.add_power(&at.s, &self.z, v, 1.0, &mut self.gradient),
-        }
-        Ok(explained(&self.blocks, &self.gradient))
+        let (data, gradient) = (at.mechanism.data(), &mut self.gradient);
+        Ok(data.explained(&at.s, &self.blocks, &self.z, level, gradient))
     }
 
     /// Begins the record of a state at time t.

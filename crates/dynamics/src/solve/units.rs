@@ -68,8 +68,8 @@ fn units_of_bodies(mechanism: &Mechanism, size: f64) -> Vec<f64> {
 }
 
 /// The length (m) of each body: the longest arm from its mass centre to a point of its joints, or
-/// its largest radius of gyration if that is longer; the size of the mechanism (m) if a body has
-/// neither.
+/// its largest radius of gyration if that is longer; the size of the mechanism (m) if both are zero
+/// or rounding.
 fn lengths(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let space = mechanism.space();
     let gyration = |mass: &[f64]| {
@@ -90,9 +90,10 @@ fn lengths(mechanism: &Mechanism, size: f64) -> Vec<f64> {
             }
         }
     }
-    let known = |length: f64| length > 0.0 && length.log2().is_finite();
-    for length in &mut lengths {
-        *length = if known(*length) { *length } else { size };
+    for (body, length) in lengths.iter_mut().enumerate() {
+        if !(mechanism.is_length(body, *length) && length.log2().is_finite()) {
+            *length = size;
+        }
     }
     lengths
 }

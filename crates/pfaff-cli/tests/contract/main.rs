@@ -2,6 +2,7 @@
 //! each wrong input.
 
 mod advice;
+mod agreement;
 mod analyze;
 mod bad_input;
 mod book;

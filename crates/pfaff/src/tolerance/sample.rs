@@ -8,9 +8,9 @@
 
 use linalg::{KeptRowSaddle, Matrix};
 use model::start::requirement;
-use model::{Mechanism, Scratch, System};
+use model::{Level, Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
-use solvability::{Configuration, Equations, Verdict};
+use solvability::{Configuration, Equations, RowTerms, Verdict};
 
 use super::draw::Stream;
 use super::failed::Failed;
@@ -326,8 +326,9 @@ impl Nominal {
             return Some(lambda.to_vec());
         }
         let layout = mechanism.layout();
-        let fastest = v.iter().fold(0.0, |a: f64, v| a.max(v.abs()));
-        let terms = |i: usize| layout.row(s, i).map(|(_, c)| c.abs()).sum::<f64>() * fastest;
+        let size = self.size;
+        let level = Level::velocities(mechanism, size, v);
+        let terms = |i: usize| mechanism.scales(s).terms(i, &level);
         let holds = |i: usize| layout.velocity_residual(s, i, v).abs() <= SATISFIED * terms(i);
         if !(0..layout.rows()).all(holds) {
             return None;
@@ -337,7 +338,7 @@ impl Nominal {
             mass: mechanism.mass().to_vec(),
             force: s.force.clone(),
             gamma: s.gamma.clone(),
-            gamma_terms: vec![0.0; c.nrows()],
+            terms: RowTerms::of(mechanism, s, v, size),
             c,
         };
         equations.multipliers(decision).ok()

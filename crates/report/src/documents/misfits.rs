@@ -112,13 +112,12 @@ impl SpreadDocument {
         }
     }
 
-    /// A run on other rows that could not begin.
+    /// A run on other rows that could not begin; the dropped rows, from 0.
     #[must_use]
-    pub fn stopped(deleted_rows: Vec<usize>, error: &MotionError) -> Self {
+    pub fn stopped(dropped: &[usize], error: &MotionError) -> Self {
         Self {
-            deleted_rows,
             error: Some(error.to_string()),
-            ..Self::new(&[])
+            ..Self::new(dropped)
         }
     }
 

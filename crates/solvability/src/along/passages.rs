@@ -5,7 +5,7 @@ use crate::limits::{
 };
 use crate::pose::velocity_units;
 use linalg::{Matrix, PivotedQr, least_squares_step};
-use model::{Mechanism, System};
+use model::{Mechanism, System, is_at_rest};
 use rank::RankStatus;
 
 use super::border::Border;
@@ -259,7 +259,7 @@ fn regular_motions<F: FnMut(f64) -> State>(
 ) -> Result<Matrix, AlongError> {
     let n = v.len();
     let freedoms = n - path.rank;
-    let moves = v.iter().any(|v| *v != 0.0);
+    let moves = !is_at_rest(path.mechanism, path.size(), v);
     if freedoms == 1 && moves && !path.mechanism.layout().rheonomic {
         return Ok(Matrix::from_fn(n, 1, |i, _| v[i]));
     }

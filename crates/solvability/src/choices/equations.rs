@@ -5,7 +5,8 @@ use crate::limits::{AGREEMENT, ROWS_MAX};
 use crate::pose::velocity_units;
 use crate::row_decision::RowDecision;
 use linalg::{KeptRowSaddle, Matrix, SchurSaddle, SchurStructure};
-use model::{ColumnKind, Mechanism, Scratch, System};
+use model::start::scene_size;
+use model::{Level, Mechanism, Scratch, System};
 use rank::RankStatus;
 
 use super::ChoiceError;
@@ -18,14 +19,15 @@ use crate::sparse::{blocks, rows_of};
 /// ```
 /// use linalg::{Matrix};
 /// use rank::{decide};
-/// use solvability::Equations;
+/// use solvability::{Equations, RowTerms};
 /// // Two equal rows hold a unit mass against a force of 3.
+/// let c = Matrix::from_rows(&[[1.0], [1.0]]);
 /// let equations = Equations {
 ///     mass: vec![1.0],
 ///     force: vec![3.0],
-///     c: Matrix::from_rows(&[[1.0], [1.0]]),
+///     terms: RowTerms::of_matrix(&c),
+///     c,
 ///     gamma: vec![0.0, 0.0],
-///     gamma_terms: vec![0.0, 0.0],
 /// };
 /// let lambda = equations.multipliers(&decide(&equations.c, 0.0)?)?;
 /// assert_eq!(lambda.iter().sum::<f64>(), 3.0);
@@ -41,9 +43,59 @@ pub struct Equations {
     pub c: Matrix,
     /// Γ, m + h.
     pub gamma: Vec<f64>,
-    /// Size of the terms that are added up in each entry of Γ, m + h: an entry that is small
-    /// relative to it is rounding. Zeros if Γ is exact.
-    pub gamma_terms: Vec<f64>,
+    /// Sizes of the terms that are added in each row.
+    pub terms: RowTerms,
+}
+
+/// Sizes of the terms that are added in the rows of `C·a = Γ`: a difference that is small relative
+/// to them is rounding. See [`model::Scales::terms`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowTerms {
+    /// Of the entries of Γ, m + h. Zeros if Γ is exact.
+    pub gamma: Vec<f64>,
+    /// Of C·a for accelerations of one unit in any direction, m + h.
+    pub extents: Vec<f64>,
+    /// Unit of each acceleration, n_v.
+    pub units: Vec<f64>,
+}
+
+impl RowTerms {
+    /// Those of a matrix whose columns have one unit, with an exact Γ.
+    #[must_use]
+    pub fn of_matrix(c: &Matrix) -> Self {
+        let extent = |i: usize| c.row(i).iter().map(|x| x.abs()).sum();
+        Self {
+            gamma: vec![0.0; c.nrows()],
+            extents: (0..c.nrows()).map(extent).collect(),
+            units: vec![1.0; c.ncols()],
+        }
+    }
+
+    /// Those of a mechanism of this size (m) at velocities v (n_v). Needs C and Γ at the state of the
+    /// scratch.
+    #[must_use]
+    pub fn of(mechanism: &Mechanism, s: &Scratch, v: &[f64], size: f64) -> Self {
+        let scales = mechanism.scales(s);
+        let rows = || 0..mechanism.layout().rows();
+        let level = Level::accelerations(mechanism, size, v, None);
+        let unit = |j: usize| mechanism.space().unit(j, size);
+        Self {
+            gamma: rows().map(|i| scales.terms(i, &level)).collect(),
+            extents: rows().map(|i| scales.extent(i, size)).collect(),
+            units: (0..mechanism.layout().n_v).map(unit).collect(),
+        }
+    }
+
+    /// Of row `i` at accelerations of which the largest is `largest`.
+    fn of_row(&self, i: usize, largest: f64) -> f64 {
+        largest * self.extents[i] + self.gamma[i]
+    }
+
+    /// The largest of these accelerations, in their units.
+    fn largest(&self, a: &[f64]) -> f64 {
+        let shares = a.iter().zip(&self.units).map(|(a, unit)| (a / unit).abs());
+        shares.fold(0.0, f64::max)
+    }
 }
 
 /// Accelerations, and one solution for the multipliers.
@@ -62,14 +114,18 @@ impl Equations {
     /// # Errors
     /// [`RequestError::Length`], [`RequestError::NotFinite`]: t, q or v do not fit the mechanism.
     pub fn of(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Result<Self, RequestError> {
-        let Terms { s, gamma_terms } = Terms::of(mechanism, t, q, v)?;
-        Ok(Self {
+        Ok(Self::at(mechanism, (q, v), evaluated(mechanism, t, q, v)?))
+    }
+
+    /// The equations at a state that has been evaluated.
+    fn at(mechanism: &Mechanism, (q, v): (&[f64], &[f64]), s: Scratch) -> Self {
+        Self {
             mass: mechanism.mass().to_vec(),
             c: mechanism.layout().dense(&s),
+            terms: RowTerms::of(mechanism, &s, v, scene_size(mechanism, q)),
             force: s.force,
             gamma: s.gamma,
-            gamma_terms,
-        })
+        }
     }
 
     /// The equations of a part of a mechanism, given a solution of the whole; the forces of other
@@ -128,67 +184,87 @@ impl Equations {
     /// # Errors
     /// As [`Equations::multipliers`].
     pub fn solution(&self, rows: impl Into<RowDecision>) -> Result<Solution, ChoiceError> {
-        let rows = rows.into();
+        self.solution_within(&rows.into(), |_, _| 0.0)
+    }
+
+    /// One solution, without asking whether the dropped rows agree with it.
+    pub(crate) fn solution_of_kept(&self, rows: &RowDecision) -> Result<Solution, ChoiceError> {
+        self.solved(rows).map(|(solution, _)| solution)
+    }
+
+    fn solved(&self, rows: &RowDecision) -> Result<(Solution, KeptRowSaddle), ChoiceError> {
         let (m, n) = (self.c.nrows(), self.c.ncols());
         check("gamma", &self.gamma, m)?;
-        check("gamma_terms", &self.gamma_terms, m)?;
-        check_rows(&rows, m)?;
+        check("terms of gamma", &self.terms.gamma, m)?;
+        check("extents", &self.terms.extents, m)?;
+        check("units", &self.terms.units, n)?;
+        check_rows(rows, m)?;
         let kept = &rows.kept;
         let mut saddle = KeptRowSaddle::new(n, kept.len())?;
         saddle.factor(|k| self.c.row(kept[k]), &self.mass)?;
         let gamma: Vec<f64> = kept.iter().map(|&i| self.gamma[i]).collect();
         let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; kept.len()]);
         saddle.solve(&self.force, &gamma, &mut a, &mut of_kept)?;
-        // The error of each acceleration is estimated with the sizes of the columns of C.
-        let units = linalg::equilibrate(&self.c).cols;
-        let units: Vec<f64> = units.into_iter().map(|e| f64::from(e).exp2()).collect();
-        let row = |i: usize| self.c.row(i).iter().copied().enumerate();
-        agree(&rows, row, &a, &units, [&self.gamma, &self.gamma_terms])?;
-        Ok(Solution {
+        let solution = Solution {
             acceleration: a,
             multipliers: on_all_rows(kept, of_kept, m),
-        })
-    }
-}
-
-/// The values of a mechanism at one instant, before a dense matrix is built.
-struct Terms {
-    s: Scratch,
-    gamma_terms: Vec<f64>,
-}
-
-impl Terms {
-    fn of(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Result<Self, RequestError> {
-        let layout = mechanism.layout();
-        check("t", &[t], 1)?;
-        check("q", q, layout.n_q)?;
-        check("v", v, layout.n_v)?;
-        let mut s = mechanism.scratch();
-        mechanism.pose(t, q, &mut s);
-        mechanism.c(&mut s);
-        mechanism.twist(v, &mut s);
-        mechanism.gamma(&mut s);
-        mechanism.force(&mut s);
-        let size = model::start::scene_size(mechanism, q);
-        let length = |kind: &ColumnKind| match kind {
-            ColumnKind::Translation => size,
-            ColumnKind::Rotation => 1.0,
         };
-        let lengths: Vec<f64> = mechanism
-            .layout()
-            .column_kinds()
-            .iter()
-            .map(length)
-            .collect();
-        // The largest rate in the mechanism (rad/s); Γ is quadratic in it.
-        let rates = v.iter().zip(&lengths).map(|(v, length)| (v / length).abs());
-        let rate = rates.fold(0.0, f64::max);
-        let reach = |i| layout.row(&s, i).map(|(k, c)| c.abs() * lengths[k]);
-        let gamma_terms = (0..layout.rows())
-            .map(|i| rate * rate * reach(i).sum::<f64>())
-            .collect();
-        Ok(Self { s, gamma_terms })
+        Ok((solution, saddle))
     }
+
+    /// Like [`Equations::solution`]; `explained` returns what data within a stated tolerance explain
+    /// of a combination of rows at accelerations.
+    fn solution_within(
+        &self,
+        rows: &RowDecision,
+        explained: impl Fn(&[f64], &[f64]) -> f64,
+    ) -> Result<Solution, ChoiceError> {
+        let (solution, mut saddle) = self.solved(rows)?;
+        let a = &solution.acceleration;
+        let row = |i: usize| self.c.row(i).iter().copied().enumerate();
+        agree(rows, row, a, (&self.gamma, &self.terms), |i| {
+            let z = self.dependency(rows, i, &mut saddle)?;
+            let largest = self.terms.largest(a);
+            let implied = rows
+                .kept
+                .iter()
+                .map(|&k| z[k].abs() * self.terms.of_row(k, largest));
+            Ok((implied.sum(), explained(&z, a)))
+        })?;
+        Ok(solution)
+    }
+
+    /// The combination of rows in which the kept rows cancel the dropped row i, m + h: as a force, it
+    /// moves nothing.
+    fn dependency(
+        &self,
+        rows: &RowDecision,
+        i: usize,
+        saddle: &mut KeptRowSaddle,
+    ) -> Result<Vec<f64>, ChoiceError> {
+        let kept = rows.kept.len();
+        let (mut still, mut of_kept) = (vec![0.0; self.c.ncols()], vec![0.0; kept]);
+        saddle.solve(self.c.row(i), &vec![0.0; kept], &mut still, &mut of_kept)?;
+        let mut z = on_all_rows(&rows.kept, of_kept, self.c.nrows());
+        z.iter_mut().for_each(|z| *z = -*z);
+        z[i] = 1.0;
+        Ok(z)
+    }
+}
+
+/// Evaluates the terms of the equations of a mechanism at one instant.
+fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Result<Scratch, RequestError> {
+    let layout = mechanism.layout();
+    check("t", &[t], 1)?;
+    check("q", q, layout.n_q)?;
+    check("v", v, layout.n_v)?;
+    let mut s = mechanism.scratch();
+    mechanism.pose(t, q, &mut s);
+    mechanism.c(&mut s);
+    mechanism.twist(v, &mut s);
+    mechanism.gamma(&mut s);
+    mechanism.force(&mut s);
+    Ok(s)
 }
 
 /// One solution of the equations of a mechanism of any size at time t, coordinates q and velocities
@@ -203,11 +279,17 @@ pub fn solution(
     (t, q, v): (f64, &[f64], &[f64]),
     rows: &RowDecision,
 ) -> Result<Solution, ChoiceError> {
-    if mechanism.layout().rows() <= ROWS_MAX {
-        return Equations::of(mechanism, t, q, v)?.solution(rows);
+    let s = evaluated(mechanism, t, q, v)?;
+    if mechanism.layout().rows() > ROWS_MAX {
+        return sparse_solution(mechanism, (q, v), &s, &s.force, rows);
     }
-    let terms = Terms::of(mechanism, t, q, v)?;
-    sparse_solution(mechanism, q, &terms, &terms.s.force, rows)
+    let equations = Equations::at(mechanism, (q, v), s.clone());
+    let (data, size) = (mechanism.data(), scene_size(mechanism, q));
+    equations.solution_within(rows, |z, a| {
+        let level = Level::accelerations(mechanism, size, v, Some(a));
+        let mut gradient = vec![0.0; data.count()];
+        data.explained(&s, &data.blocks(&s), z, &level, &mut gradient)
+    })
 }
 
 /// The solution with sparse matrices under the given forces, n_v values, instead of those of the
@@ -218,20 +300,21 @@ pub(crate) fn solution_under(
     force: &[f64],
     rows: &RowDecision,
 ) -> Result<Solution, ChoiceError> {
-    let terms = Terms::of(mechanism, t, q, v)?;
-    sparse_solution(mechanism, q, &terms, force, rows)
+    let s = evaluated(mechanism, t, q, v)?;
+    sparse_solution(mechanism, (q, v), &s, force, rows)
 }
 
 fn sparse_solution(
     mechanism: &Mechanism,
-    q: &[f64],
-    Terms { s, gamma_terms }: &Terms,
+    (q, v): (&[f64], &[f64]),
+    s: &Scratch,
     force: &[f64],
     rows: &RowDecision,
 ) -> Result<Solution, ChoiceError> {
     let layout = mechanism.layout();
     check_rows(rows, layout.rows())?;
-    let units = velocity_units(mechanism, model::start::scene_size(mechanism, q));
+    let size = scene_size(mechanism, q);
+    let units = velocity_units(mechanism, size);
     let scaled = |x: &[f64]| -> Vec<f64> { x.iter().zip(&units).map(|(x, u)| x * u).collect() };
     let kept = &rows.kept;
     let c = rows_of(mechanism, s, kept.iter().copied(), |j| units[j]);
@@ -242,7 +325,8 @@ fn sparse_solution(
     saddle.solve(&c, &scaled(force), &gamma, &mut x, &mut of_kept)?;
     let a = scaled(&x);
     let row = |i: usize| layout.row(s, i);
-    agree(rows, row, &a, &units, [&s.gamma, gamma_terms])?;
+    let terms = RowTerms::of(mechanism, s, v, size);
+    agree(rows, row, &a, (&s.gamma, &terms), |_| Ok((0.0, 0.0)))?;
     Ok(Solution {
         acceleration: a,
         multipliers: on_all_rows(kept, of_kept, layout.rows()),
@@ -265,21 +349,26 @@ fn check_rows(rows: &RowDecision, m: usize) -> Result<(), ChoiceError> {
     }
 }
 
-/// Checks that the dropped rows agree with these accelerations. Every acceleration, in these units,
-/// is assumed to have the error of the largest one.
+/// Checks that the dropped rows agree with these accelerations, each of which has the error of the
+/// largest. Where a row differs by more than the rounding of its own terms, `implied` returns the
+/// terms of the kept rows in it, and what data explain.
 fn agree<R: Iterator<Item = (usize, f64)>>(
     rows: &RowDecision,
     row: impl Fn(usize) -> R,
     a: &[f64],
-    units: &[f64],
-    [gamma, gamma_terms]: [&[f64]; 2],
+    (gamma, terms): (&[f64], &RowTerms),
+    mut implied: impl FnMut(usize) -> Result<(f64, f64), ChoiceError>,
 ) -> Result<(), ChoiceError> {
-    let largest = a.iter().zip(units).map(|(a, unit)| (a / unit).abs());
-    let largest = largest.fold(0.0, f64::max);
+    let largest = terms.largest(a);
+    let share = AGREEMENT.max(rows.support_tolerance);
     for &i in &rows.dropped {
         let by = (row(i).map(|(j, c)| c * a[j]).sum::<f64>() - gamma[i]).abs();
-        let size = row(i).map(|(j, c)| c.abs() * units[j] * largest);
-        let allowed = AGREEMENT * (size.sum::<f64>() + gamma[i].abs() + gamma_terms[i]);
+        let own = terms.of_row(i, largest);
+        if by <= share * own {
+            continue;
+        }
+        let (of_kept, explained) = implied(i)?;
+        let allowed = share * (own + of_kept) + explained;
         if by.is_nan() || by > allowed {
             return Err(ChoiceError::Contradiction {
                 row: i,

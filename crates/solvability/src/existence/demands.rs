@@ -28,7 +28,8 @@ impl Demand {
     pub(super) fn of(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Option<Self> {
         let groups = &mechanism.layout().groups;
         let group = &groups[id.0];
-        let [prescribed] = *mechanism.prescribed(id, s) else {
+        // After the prescribed motion come the angles that are counted.
+        let [prescribed, ..] = *mechanism.prescribed(id, s) else {
             return None;
         };
         group.is_drive().then(|| Self {

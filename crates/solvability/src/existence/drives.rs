@@ -7,13 +7,12 @@ use std::cell::OnceCell;
 
 use crate::error::AnalysisError;
 use crate::limits::{DRIVE_HALVINGS, DRIVE_POSITIONS, DRIVE_STEPS, ONE_PART, RUNS_NOTICE, STRIDE};
-use crate::pose::{dimensionless, uncertainty, velocity_units};
-use linalg::{KeptRowSaddle, Matrix};
 use model::start::{Metric, nearest_configuration, scene_size};
-use model::{ConstraintId, Mechanism, RowLabel, Scratch, System};
-use rank::{RankDecision, circuits, components, decide_keeping};
+use model::{ConstraintId, Level, Mechanism, RowLabel, Scratch, System};
+use rank::components;
 
-use super::{Comparison, ConstraintLevel, Contradiction};
+use super::Contradiction;
+use super::joints_first::{JointsFirst, StatedRanks};
 use crate::generic::{Generic, OtherConfiguration, generic};
 use crate::state::check_configuration;
 
@@ -32,7 +31,12 @@ pub fn contradicting_drives(
     t: f64,
     q: &[f64],
 ) -> Result<Vec<Contradiction>, AnalysisError> {
-    compared(mechanism, t, q, Notice::Rounding)
+    check_configuration(mechanism, t, q)?;
+    if is_beyond(mechanism) {
+        return Ok(Vec::new());
+    }
+    let ranks = StatedRanks::at(mechanism, t, q)?;
+    compared(mechanism, t, q, ranks.as_ref(), Notice::Rounding)
 }
 
 /// The first contradiction of drives between the start and the last time, checked at a dozen
@@ -52,9 +56,10 @@ pub fn contradicting_drives_along(
     if is_beyond(mechanism) {
         return Ok(None);
     }
+    let ranks = StatedRanks::at(mechanism, 0.0, start)?;
     // Drives that are independent at the start contradict nothing: on the way the rank is lower at
     // single instants only.
-    match JointsFirst::of_velocities(mechanism, 0.0, start)? {
+    match JointsFirst::of_velocities(mechanism, 0.0, start, ranks.as_ref())? {
         Some(rows) if rows.has_redundant_drives(mechanism) => {}
         _ => return Ok(None),
     }
@@ -65,11 +70,11 @@ pub fn contradicting_drives_along(
             .get_or_init(|| generic(mechanism, 0.0, start))
             .as_ref()
     };
-    walk(mechanism, start, t_end, |t, q| {
-        let all = compared(mechanism, t, q, Notice::RunTo(t_end))?;
+    walk(mechanism, start, t_end, ranks.as_ref(), |t, q| {
+        let all = compared(mechanism, t, q, ranks.as_ref(), Notice::RunTo(t_end))?;
         found = all
             .into_iter()
-            .find(|one| lasts(mechanism, elsewhere(), one));
+            .find(|one| lasts(mechanism, ranks.as_ref(), elsewhere(), one));
         Ok(found.is_none())
     })?;
     Ok(found)
@@ -80,6 +85,7 @@ pub fn contradicting_drives_along(
 /// configurations around it.
 fn lasts(
     mechanism: &Mechanism,
+    ranks: Option<&StatedRanks>,
     elsewhere: Option<&Generic>,
     contradiction: &Contradiction,
 ) -> bool {
@@ -88,7 +94,7 @@ fn lasts(
     let row = |label: &&RowLabel| labels.iter().position(|other| other == *label);
     let drives: Vec<usize> = drives.iter().filter_map(row).collect();
     let is_redundant = |there: &OtherConfiguration| {
-        let rows = JointsFirst::of_velocities(mechanism, there.time, &there.q);
+        let rows = JointsFirst::of_velocities(mechanism, there.time, &there.q, ranks);
         rows.ok().flatten().is_none_or(|rows| {
             let needed = components(&rows.decision).coloops;
             drives.iter().any(|row| needed.binary_search(row).is_err())
@@ -108,6 +114,7 @@ fn walk(
     mechanism: &Mechanism,
     start: &[f64],
     t_end: f64,
+    ranks: Option<&StatedRanks>,
     mut see: impl FnMut(f64, &[f64]) -> Result<bool, AnalysisError>,
 ) -> Result<(), AnalysisError> {
     check_configuration(mechanism, t_end, start)?;
@@ -116,6 +123,7 @@ fn walk(
     }
     let mut walk = DriveWalk {
         mechanism,
+        ranks,
         size: scene_size(mechanism, start),
         t: 0.0,
         q: start.to_vec(),
@@ -138,6 +146,7 @@ fn walk(
 /// The configuration reached by following the drives.
 struct DriveWalk<'m> {
     mechanism: &'m Mechanism,
+    ranks: Option<&'m StatedRanks>,
     /// Size of the mechanism (m).
     size: f64,
     t: f64,
@@ -153,7 +162,9 @@ impl DriveWalk<'_> {
                 return Ok(false);
             }
             self.steps += 1;
-            let Some(rows) = JointsFirst::of_positions(self.mechanism, self.t, &self.q)? else {
+            let Some(rows) =
+                JointsFirst::of_positions(self.mechanism, self.t, &self.q, self.ranks)?
+            else {
                 return Ok(false);
             };
             let kept = &rows.decision.kept;
@@ -223,12 +234,9 @@ fn compared(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],
+    ranks: Option<&StatedRanks>,
     notice: Notice,
 ) -> Result<Vec<Contradiction>, AnalysisError> {
-    check_configuration(mechanism, t, q)?;
-    if is_beyond(mechanism) {
-        return Ok(Vec::new());
-    }
     let (share, per_second) = match notice {
         Notice::Rounding => (0.0, 0.0),
         Notice::RunTo(t_end) => (RUNS_NOTICE, t_end.recip()),
@@ -240,159 +248,23 @@ fn compared(
         found.extend(of_level);
     };
     // Contradictions of positions are reported before those of velocities.
-    if let Some(positions) = JointsFirst::of_positions(mechanism, t, q)? {
-        let terms = |i| mechanism.scales(&positions.s).position(i);
-        let level = ConstraintLevel::Position;
-        add(positions.contradictions(mechanism, (level, None), &terms, share));
+    if let Some(positions) = JointsFirst::of_positions(mechanism, t, q, ranks)? {
+        let level = Level::positions();
+        let terms = |i| mechanism.scales(&positions.s).terms(i, &level);
+        add(positions.contradictions(mechanism, level, &terms, share));
     }
-    if let Some(all) = JointsFirst::of_velocities(mechanism, t, q)? {
+    if let Some(all) = JointsFirst::of_velocities(mechanism, t, q, ranks)? {
+        let v = all
+            .slowest(mechanism, q)
+            .unwrap_or_else(|| vec![0.0; mechanism.layout().n_v]);
+        let level = Level::velocities(mechanism, scene_size(mechanism, q), &v);
         // Different rates count as equal if the positions differ by less than a run notices at its
         // end.
         let slow = |i| per_second * mechanism.scales(&all.s).position(i);
-        let terms = |i| mechanism.scales(&all.s).prescribed(i) + slow(i);
-        let level = ConstraintLevel::Velocity;
-        let v = mechanism
-            .has_tolerances()
-            .then(|| all.slowest(mechanism, q));
-        let v = v.flatten();
-        add(all.contradictions(mechanism, (level, v.as_deref()), &terms, share));
+        let terms = |i| mechanism.scales(&all.s).terms(i, &level) + slow(i);
+        add(all.contradictions(mechanism, level, &terms, share));
     }
     Ok(found)
-}
-
-/// Rank decision at a configuration in which joints are kept before drives.
-struct JointsFirst {
-    /// Scratch in which the rows are evaluated.
-    s: Scratch,
-    decision: RankDecision,
-}
-
-impl JointsFirst {
-    /// Decision on the rows of Φ.
-    fn of_positions(
-        mechanism: &Mechanism,
-        t: f64,
-        q: &[f64],
-    ) -> Result<Option<Self>, AnalysisError> {
-        Self::of(mechanism, t, q, mechanism.layout().m)
-    }
-
-    /// Decision on all rows.
-    fn of_velocities(
-        mechanism: &Mechanism,
-        t: f64,
-        q: &[f64],
-    ) -> Result<Option<Self>, AnalysisError> {
-        Self::of(mechanism, t, q, mechanism.layout().rows())
-    }
-
-    /// Decision on the first `rows` rows of C. Returns `None` if a rank is undecided.
-    fn of(
-        mechanism: &Mechanism,
-        t: f64,
-        q: &[f64],
-        rows: usize,
-    ) -> Result<Option<Self>, AnalysisError> {
-        let layout = mechanism.layout();
-        let mut s = mechanism.scratch();
-        mechanism.pose(t, q, &mut s);
-        mechanism.phi(&mut s);
-        mechanism.c(&mut s);
-        mechanism.b(&mut s);
-        let size = scene_size(mechanism, q);
-        let all: Vec<usize> = (0..rows).collect();
-        let c = dimensionless(mechanism, &s, size).select_rows(&all);
-        // The residuals of drives are what is being compared, so they do not count as inaccuracy of
-        // the configuration.
-        let mut of_joints = s.clone();
-        for row in layout.drive_rows() {
-            of_joints.phi[row] = 0.0;
-        }
-        let known = uncertainty(mechanism, &of_joints, size).select_rows(&all);
-        let decided = |rows: &[usize]| -> Result<Option<RankDecision>, AnalysisError> {
-            let [c, known]: [Matrix; 2] = [&c, &known].map(|m| m.select_rows(rows));
-            let decision = rank::decide(&c, &known)
-                .map_err(|source| AnalysisError::Rank { time: t, source })?;
-            Ok(Some(decision).filter(RankDecision::is_decided))
-        };
-        let drives = layout.drive_rows();
-        let joints: Vec<usize> = all
-            .iter()
-            .copied()
-            .filter(|row| drives.binary_search(row).is_err())
-            .collect();
-        let (Some(whole), Some(alone)) = (decided(&all)?, decided(&joints)?) else {
-            return Ok(None);
-        };
-        let mut kept: Vec<usize> = alone.kept.iter().map(|&k| joints[k]).collect();
-        for &drive in &drives {
-            if kept.len() == whole.rank {
-                break;
-            }
-            kept.push(drive);
-            kept.sort_unstable();
-            match decided(&kept)? {
-                Some(decision) if decision.redundancy == 0 => {}
-                Some(_) => kept.retain(|row| *row != drive),
-                None => return Ok(None),
-            }
-        }
-        let decision = decide_keeping(&c, &known, &kept).ok();
-        let decision = decision.filter(RankDecision::is_decided);
-        Ok(decision.map(|decision| Self { s, decision }))
-    }
-
-    /// Whether a drive depends on the kept rows.
-    fn has_redundant_drives(&self, mechanism: &Mechanism) -> bool {
-        let drives = mechanism.layout().drive_rows();
-        let mut dropped = self.decision.dropped.iter();
-        dropped.any(|row| drives.binary_search(row).is_ok())
-    }
-
-    /// The smallest velocities that satisfy the kept rows, which data within a tolerance change;
-    /// `None` if they cannot be computed.
-    fn slowest(&self, mechanism: &Mechanism, q: &[f64]) -> Option<Vec<f64>> {
-        let (layout, kept) = (mechanism.layout(), &self.decision.kept);
-        let c = layout.dense(&self.s);
-        let units = velocity_units(mechanism, scene_size(mechanism, q));
-        let weights: Vec<f64> = units.iter().map(|unit| unit.powi(-2)).collect();
-        let b: Vec<f64> = kept.iter().map(|&row| self.s.b[row]).collect();
-        let n = units.len();
-        let (mut v, mut lambda) = (vec![0.0; n], vec![0.0; kept.len()]);
-        let mut saddle = KeptRowSaddle::new(n, kept.len()).ok()?;
-        saddle.factor(|k| c.row(kept[k]), &weights).ok()?;
-        saddle.solve(&vec![0.0; n], &b, &mut v, &mut lambda).ok()?;
-        Some(v)
-    }
-
-    /// Residuals of redundant drives that are larger than a fraction of the terms of their rows.
-    fn contradictions(
-        &self,
-        mechanism: &Mechanism,
-        (level, v): (ConstraintLevel, Option<&[f64]>),
-        terms: &dyn Fn(usize) -> f64,
-        share: f64,
-    ) -> Vec<Contradiction> {
-        let drives = mechanism.layout().drive_rows();
-        let dropped = self.decision.dropped.iter().zip(circuits(&self.decision));
-        let of_drives: Vec<_> = dropped
-            .filter(|(row, _)| drives.binary_search(row).is_ok())
-            .map(|(_, circuit)| circuit)
-            .collect();
-        let comparison = Comparison {
-            level,
-            prescribed: &self.s,
-            decision: &self.decision,
-            values: match level {
-                ConstraintLevel::Position => &self.s.phi,
-                _ => &self.s.b,
-            },
-            scale: terms,
-            v,
-            share,
-        };
-        comparison.among(of_drives, mechanism, self.s.t)
-    }
 }
 
 #[cfg(test)]

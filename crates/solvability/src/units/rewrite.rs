@@ -15,7 +15,7 @@
 use linalg::Matrix;
 use model::ColumnKind;
 
-use crate::choices::Equations;
+use crate::choices::{Equations, RowTerms};
 use crate::groups::LinearForm;
 
 /// Units, as numbers per SI unit: length 1000 for mm.
@@ -130,12 +130,23 @@ impl Rewriting {
         Equations {
             mass: of_columns(&old.mass, &|m, s| power * time * m / (s * s)),
             force: of_columns(&old.force, &|q, s| power * q / s),
-            c: Matrix::from_fn(old.c.nrows(), old.c.ncols(), |i, j| {
-                self.rows[i] * old.c[(i, j)] / self.columns[j]
-            }),
+            c: self.matrix(&old.c),
             gamma: of_rows(&old.gamma),
-            gamma_terms: of_rows(&old.gamma_terms),
+            terms: RowTerms {
+                gamma: of_rows(&old.terms.gamma),
+                extents: of_rows(&old.terms.extents)
+                    .iter()
+                    .map(|x| x * time)
+                    .collect(),
+                units: of_columns(&old.terms.units, &|unit, s| unit * s),
+            },
         }
+    }
+
+    /// C', or the uncertainty of its entries, from those in SI units.
+    pub(super) fn matrix(&self, c: &Matrix) -> Matrix {
+        let entry = |i: usize, j: usize| self.rows[i] * c[(i, j)] / self.columns[j];
+        Matrix::from_fn(c.nrows(), c.ncols(), entry)
     }
 
     /// `unit · ℓᵀ·λ` as a form of λ'.

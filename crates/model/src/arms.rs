@@ -1,0 +1,96 @@
+//! The arms of bodies: the distances of their joints from their centres of mass. Places are
+//! differences of rounded numbers, so an arm that is shorter than what places are known to is none:
+//! it would be the unit of length of its body.
+
+use crate::element::PlacedConstraint;
+use crate::group::ConstraintId;
+use crate::mechanism::Mechanism;
+use crate::size::{are_apart, size_of};
+use crate::space::{difference, norm};
+use crate::system::{Scratch, System};
+
+/// The longest arm of each body at the pose of the scratch (m), never zero. A body with all joints
+/// at its centre takes the arms of its neighbours; if these have none either, like shafts with
+/// gears, the size of the mechanism is used. Needs C.
+pub(crate) fn longest_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
+    let own = own_arms(mechanism, s);
+    let mut of_neighbours = vec![0.0_f64; own.len()];
+    for c in &mechanism.elements.constraints {
+        let longest = c.site.moving().map(|k| own[k]).fold(0.0, f64::max);
+        for k in c.site.moving() {
+            of_neighbours[k] = of_neighbours[k].max(longest);
+        }
+    }
+    let size = size_of(mechanism, s);
+    let first_length = |arms: (f64, f64)| match arms {
+        (0.0, 0.0) => size,
+        (0.0, neighbours) => neighbours,
+        (own, _) => own,
+    };
+    own.into_iter()
+        .zip(of_neighbours)
+        .map(first_length)
+        .collect()
+}
+
+/// The distance of the farthest joint of any kind from the centre of each body at the pose of the
+/// scratch (m); zero if all are there.
+pub(crate) fn farthest_joints(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
+    let mut arms = vec![0.0_f64; mechanism.bodies().len()];
+    for (k, constraint) in mechanism.elements.constraints.iter().enumerate() {
+        let farthest = farthest(mechanism, s, constraint);
+        let place = mechanism.reactions(s).place(ConstraintId(k));
+        for body in constraint.site.moving() {
+            let arm = norm(&difference(place, s.bodies.origin(body)));
+            if are_apart(arm, farthest) {
+                arms[body] = arms[body].max(arm);
+            }
+        }
+    }
+    arms
+}
+
+/// The longest arm of each body; zero if its joints are at its centre.
+fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
+    let layout = mechanism.layout();
+    let mut arms = vec![0.0_f64; mechanism.bodies().len()];
+    let places = |i: &usize| !layout.is_angular(*i);
+    for (k, constraint) in mechanism.elements.constraints.iter().enumerate() {
+        let mut rows = constraint.rows.holonomic.clone().filter(places).peekable();
+        if rows.peek().is_none() {
+            continue;
+        }
+        let farthest = farthest(mechanism, s, constraint);
+        let mut take = |body: usize, arm: f64| {
+            if are_apart(arm, farthest) {
+                arms[body] = arms[body].max(arm);
+            }
+        };
+        // At this configuration, a row along a slot is independent of the arm of a pin that moves
+        // along the slot.
+        let place = mechanism.reactions(s).place(ConstraintId(k));
+        for body in constraint.site.moving() {
+            let each = place.iter().zip(s.bodies.origin(body));
+            each.for_each(|(x, at)| take(body, (x - at).abs()));
+        }
+        for (j, c) in rows.flat_map(|i| layout.row(s, i)) {
+            if layout.space.is_rotation(j) {
+                take(layout.space.body_of(j), c.abs());
+            }
+        }
+    }
+    arms
+}
+
+/// The largest length that is added or subtracted in the places of a joint (m): its points in its
+/// bodies, the positions of these, and the places of their centres of mass in their frames.
+fn farthest(mechanism: &Mechanism, s: &Scratch, c: &PlacedConstraint) -> f64 {
+    let points = c.kernels().points().into_iter().map(|point| norm(&point));
+    let of_body = |k: usize| {
+        let centre = mechanism.bodies()[k].centre();
+        norm(&s.bodies.origin(k)).max(norm(&centre))
+    };
+    points
+        .chain(c.site.moving().map(of_body))
+        .fold(0.0, f64::max)
+}

@@ -1,0 +1,216 @@
+//! Ranks and kept rows in which joints come before drives: what they leave of a drive is what it
+//! contradicts.
+
+use linalg::{KeptRowSaddle, Matrix};
+use model::start::scene_size;
+use model::{ConstraintLevel, Level, Mechanism, Scratch, System};
+use rank::{RankDecision, circuits, dropping_of_rank};
+
+use super::{Comparison, Contradiction};
+use crate::certificate;
+use crate::error::AnalysisError;
+use crate::pose::{dimensionless, evaluated, uncertainty, velocity_units};
+
+/// The ranks of a mechanism with a stated tolerance: they are those of the data within it, and no
+/// single matrix has them. Without a tolerance each configuration has its own.
+pub(super) struct StatedRanks {
+    /// Of the rows of Φ; `None` if they are undecided.
+    positions: Option<RanksOfRows>,
+    /// Of all rows; `None` if they are undecided.
+    velocities: Option<RanksOfRows>,
+}
+
+/// The rank of some rows, and of those among them that do not belong to drives.
+#[derive(Clone, Copy)]
+struct RanksOfRows {
+    all: usize,
+    joints: usize,
+}
+
+impl StatedRanks {
+    /// The ranks at a configuration; `None` without a tolerance.
+    pub(super) fn at(
+        mechanism: &Mechanism,
+        t: f64,
+        q: &[f64],
+    ) -> Result<Option<Self>, AnalysisError> {
+        if !mechanism.has_tolerances() {
+            return Ok(None);
+        }
+        let s = evaluated(mechanism, t, q);
+        let rows = certificate::Rows::in_double(mechanism, &s, q);
+        let rank = |some: &[usize]| {
+            let decision = rows.select(some).decide()?;
+            Ok::<_, AnalysisError>(decision.is_decided().then_some(decision.rank))
+        };
+        let of = |count: usize| {
+            let rows: Vec<usize> = (0..count).collect();
+            let ranks = (rank(&rows)?, rank(&without_drives(mechanism, &rows))?);
+            Ok::<_, AnalysisError>(match ranks {
+                (Some(all), Some(joints)) => Some(RanksOfRows { all, joints }),
+                _ => None,
+            })
+        };
+        let layout = mechanism.layout();
+        Ok(Some(Self {
+            positions: of(layout.m)?,
+            velocities: of(layout.rows())?,
+        }))
+    }
+}
+
+/// Those of these rows that do not belong to a drive.
+fn without_drives(mechanism: &Mechanism, rows: &[usize]) -> Vec<usize> {
+    let drives = mechanism.layout().drive_rows();
+    let is_joint = |row: &&usize| drives.binary_search(row).is_err();
+    rows.iter().filter(is_joint).copied().collect()
+}
+
+/// Rank decision at a configuration in which joints are kept before drives.
+pub(super) struct JointsFirst {
+    /// Scratch in which the rows are evaluated.
+    pub(super) s: Scratch,
+    pub(super) decision: RankDecision,
+}
+
+impl JointsFirst {
+    /// Decision on the rows of Φ.
+    pub(super) fn of_positions(
+        mechanism: &Mechanism,
+        t: f64,
+        q: &[f64],
+        ranks: Option<&StatedRanks>,
+    ) -> Result<Option<Self>, AnalysisError> {
+        match ranks.map(|ranks| ranks.positions) {
+            Some(None) => Ok(None),
+            ranks => Self::of(mechanism, t, q, (mechanism.layout().m, ranks.flatten())),
+        }
+    }
+
+    /// Decision on all rows.
+    pub(super) fn of_velocities(
+        mechanism: &Mechanism,
+        t: f64,
+        q: &[f64],
+        ranks: Option<&StatedRanks>,
+    ) -> Result<Option<Self>, AnalysisError> {
+        match ranks.map(|ranks| ranks.velocities) {
+            Some(None) => Ok(None),
+            ranks => Self::of(
+                mechanism,
+                t,
+                q,
+                (mechanism.layout().rows(), ranks.flatten()),
+            ),
+        }
+    }
+
+    /// Decision on the first `count` rows of C, with these ranks if they are known. Returns `None`
+    /// if a rank is undecided.
+    fn of(
+        mechanism: &Mechanism,
+        t: f64,
+        q: &[f64],
+        (count, ranks): (usize, Option<RanksOfRows>),
+    ) -> Result<Option<Self>, AnalysisError> {
+        let layout = mechanism.layout();
+        let mut s = evaluated(mechanism, t, q);
+        mechanism.b(&mut s);
+        let size = scene_size(mechanism, q);
+        let all: Vec<usize> = (0..count).collect();
+        let c = dimensionless(mechanism, &s, size).select_rows(&all);
+        // The residuals of drives are what is being compared, so they do not count as inaccuracy of
+        // the configuration.
+        let mut of_joints = s.clone();
+        for row in layout.drive_rows() {
+            of_joints.phi[row] = 0.0;
+        }
+        let known = uncertainty(mechanism, &of_joints, size).select_rows(&all);
+        let decided = |rows: &[usize], rank: Option<usize>| {
+            let [c, known]: [Matrix; 2] = [&c, &known].map(|m| m.select_rows(rows));
+            let decision = match rank {
+                None => rank::decide(&c, &known),
+                Some(rank) => rank::decide_of_rank(&c, &known, rank),
+            };
+            let decision = decision.map_err(|source| AnalysisError::Rank { time: t, source })?;
+            Ok::<_, AnalysisError>(Some(decision).filter(RankDecision::is_decided))
+        };
+        let joints = without_drives(mechanism, &all);
+        let whole = decided(&all, ranks.map(|ranks| ranks.all))?;
+        let alone = decided(&joints, ranks.map(|ranks| ranks.joints))?;
+        let (Some(whole), Some(alone)) = (whole, alone) else {
+            return Ok(None);
+        };
+        let mut kept: Vec<usize> = alone.kept.iter().map(|&k| joints[k]).collect();
+        for drive in layout.drive_rows() {
+            if kept.len() == whole.rank {
+                break;
+            }
+            kept.push(drive);
+            kept.sort_unstable();
+            match decided(&kept, None)? {
+                Some(decision) if decision.redundancy == 0 => {}
+                Some(_) => kept.retain(|row| *row != drive),
+                None => return Ok(None),
+            }
+        }
+        let dropped: Vec<usize> = all
+            .into_iter()
+            .filter(|row| kept.binary_search(row).is_err())
+            .collect();
+        let decision = dropping_of_rank(&c, &known, &dropped, whole.rank).ok();
+        let decision = decision.filter(RankDecision::is_decided);
+        Ok(decision.map(|decision| Self { s, decision }))
+    }
+
+    /// Whether a drive depends on the kept rows.
+    pub(super) fn has_redundant_drives(&self, mechanism: &Mechanism) -> bool {
+        let drives = mechanism.layout().drive_rows();
+        let mut dropped = self.decision.dropped.iter();
+        dropped.any(|row| drives.binary_search(row).is_ok())
+    }
+
+    /// The smallest velocities that satisfy the kept rows, which data within a tolerance change;
+    /// `None` if they cannot be computed.
+    pub(super) fn slowest(&self, mechanism: &Mechanism, q: &[f64]) -> Option<Vec<f64>> {
+        let (layout, kept) = (mechanism.layout(), &self.decision.kept);
+        let c = layout.dense(&self.s);
+        let units = velocity_units(mechanism, scene_size(mechanism, q));
+        let weights: Vec<f64> = units.iter().map(|unit| unit.powi(-2)).collect();
+        let b: Vec<f64> = kept.iter().map(|&row| self.s.b[row]).collect();
+        let n = units.len();
+        let (mut v, mut lambda) = (vec![0.0; n], vec![0.0; kept.len()]);
+        let mut saddle = KeptRowSaddle::new(n, kept.len()).ok()?;
+        saddle.factor(|k| c.row(kept[k]), &weights).ok()?;
+        saddle.solve(&vec![0.0; n], &b, &mut v, &mut lambda).ok()?;
+        Some(v)
+    }
+
+    /// Residuals of redundant drives that are larger than a fraction of the terms of their rows.
+    pub(super) fn contradictions(
+        &self,
+        mechanism: &Mechanism,
+        level: Level<'_>,
+        terms: &dyn Fn(usize) -> f64,
+        share: f64,
+    ) -> Vec<Contradiction> {
+        let drives = mechanism.layout().drive_rows();
+        let dropped = self.decision.dropped.iter().zip(circuits(&self.decision));
+        let of_drives: Vec<_> = dropped
+            .filter(|(row, _)| drives.binary_search(row).is_ok())
+            .map(|(_, circuit)| circuit)
+            .collect();
+        let comparison = Comparison {
+            level,
+            prescribed: &self.s,
+            decision: &self.decision,
+            values: match level.of {
+                ConstraintLevel::Position => &self.s.phi,
+                _ => &self.s.b,
+            },
+            scale: terms,
+            share,
+        };
+        comparison.among(of_drives, mechanism, self.s.t)
+    }
+}
