@@ -10,7 +10,7 @@ use super::curves::{Curves, largest};
 use super::first_order::FirstOrder;
 use super::run_page::RunPage;
 use crate::channel::Channel;
-use crate::documents::{EventDocument, ReactionDocument};
+use crate::documents::{ComponentDocument, EventDocument, ReactionDocument};
 use crate::figures::drawing::{DrawingModel, Stage};
 use crate::recording::Frame;
 
@@ -218,7 +218,9 @@ fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
         .unwrap_or("undecided");
     let components = of_analysis.map_or_else(Vec::new, |r| {
         let known = r.components.iter();
+        let in_space = |c: &&ComponentDocument| group.space.component(c.name).is_some();
         known
+            .filter(in_space)
             .map(|c| Component {
                 name: c.name,
                 unit: unit(group.space, c.name),

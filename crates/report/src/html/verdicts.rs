@@ -58,11 +58,13 @@ fn table(out: &mut String, reactions: &[&ReactionDocument]) {
             "unique" => "~0".to_owned(),
             _ => margin(r.wrench.margin),
         };
-        let said = if r.data.fragile {
-            "unique, fragile".to_owned()
-        } else {
-            r.wrench.verdict.replace('_', " ")
-        };
+        let mut said = r.wrench.verdict.replace('_', " ");
+        if r.data.fragile {
+            said.push_str(match r.wrench.verdict {
+                "unique" => ", fragile",
+                _ => ", unique parts fragile",
+            });
+        }
         let badge = if r.data.fragile {
             "fragile"
         } else {
@@ -93,9 +95,21 @@ fn reason(r: &ReactionDocument) -> String {
     if let Some(reason) = &r.wrench.reason {
         return reason.clone();
     }
-    if let Some(text) = &r.data.hangs_on {
-        return text.clone();
+    let hanging = r.data.hangs_on.clone();
+    if r.wrench.verdict == "unique"
+        && let Some(text) = hanging
+    {
+        return text;
     }
+    let why = because(r);
+    match hanging {
+        Some(text) => format!("{why}; {text}"),
+        None => why,
+    }
+}
+
+/// Why a reaction is unique or not, apart from what it depends on.
+fn because(r: &ReactionDocument) -> String {
     match (&r.explanation, r.settled, r.wrench.verdict) {
         (Some(text), ..) => {
             // The column before contains this text.

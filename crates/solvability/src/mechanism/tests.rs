@@ -48,9 +48,12 @@ fn arguments(
     local: Local<'_>,
 ) -> Vec<Argument> {
     let Place { at, axis, across } = *place;
-    let vector = |[x, y, z]: [f64; 3]| match is_plane {
-        true => Argument::Pair([x, y]),
-        false => Argument::Triple([x, y, z]),
+    let vector = |[x, y, z]: [f64; 3]| {
+        if is_plane {
+            Argument::Pair([x, y])
+        } else {
+            Argument::Triple([x, y, z])
+        }
     };
     let turned = |slot: usize, v: [f64; 3]| {
         let tip = local(bodies[slot], std::array::from_fn(|k| at[k] + v[k]));

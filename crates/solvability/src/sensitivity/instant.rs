@@ -283,9 +283,10 @@ impl Change {
     /// The change of a sum of two numbers that depend on different data.
     pub(super) fn and(self, other: Self) -> Self {
         let (value, load) = (self.value + other.value, self.load.max(other.load));
-        let larger = match other.largest > self.largest || other.largest.is_nan() {
-            true => other,
-            false => self,
+        let larger = if other.largest > self.largest || other.largest.is_nan() {
+            other
+        } else {
+            self
         };
         Self {
             value,

@@ -214,10 +214,8 @@ impl ReactionNumber {
         let of = |term: &Term| {
             let own = match term.kind {
                 Kind::Along { force, torque, .. } => norm(&force).hypot(size * norm(&torque)),
-                Kind::Named => match turns(&mechanism.layout().groups[term.joint.0]) {
-                    true => size,
-                    false => 1.0,
-                },
+                Kind::Named if turns(&mechanism.layout().groups[term.joint.0]) => size,
+                Kind::Named => 1.0,
                 Kind::InFrame { component, .. } if space.forces().contains(&component) => 1.0,
                 Kind::InFrame { .. } => size,
             };
