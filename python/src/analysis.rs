@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use pfaff::ConfigurationAnalysis;
 use pfaff::configuration::KeptAnalysis;
-use pfaff::model::System;
 use pfaff::rank::Limits;
 use pfaff::refusal::{Refusal, json};
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
-    DistributionDocument, EliminationsDocument, GroupDocument, MakeUniqueDocument, part_as_json,
+    DistributionDocument, EliminationsDocument, MakeUniqueDocument, part_as_json,
 };
 use pyo3::prelude::*;
 use serde::Serialize;
@@ -72,13 +71,7 @@ impl Analysis {
     /// The verdict on a sum of reactions, with its numbers if they are unique.
     fn combine(&self, py: Python<'_>, sum: String) -> PyResult<String> {
         self.ask(py, |configuration| {
-            let verdict = configuration.group(&sum)?;
-            let mut document = GroupDocument::new(&sum, &verdict);
-            if let Ok(numbers) = configuration.determined(std::slice::from_ref(&sum))
-                && let Some(own) = numbers.last()
-            {
-                document = document.with_values(own);
-            }
+            let document = configuration.group_document(&sum)?;
             plain(&document)
         })
     }
@@ -88,9 +81,9 @@ impl Analysis {
         self.ask(py, |configuration| {
             let id = configuration.reaction(&name)?;
             let point = about.point(configuration)?;
-            let found = configuration.moment(id, point).map_err(Fault::from)?;
             let mut document = AnalysisDocument::new(&name, &configuration.analysis, None);
-            document.add_moment(id, configuration.mechanism.layout().space, &found);
+            let added = configuration.add_moments(&mut document, [id], point);
+            added.map_err(Fault::from)?;
             plain(&document.reactions[id.0].moment)
         })
     }

@@ -53,6 +53,15 @@ impl ConstraintGroup {
             .collect()
     }
 
+    /// The named component that has to be reported beside force and torque, because these may not
+    /// contain it: they act on the first body, and a definition between more than two bodies, as a
+    /// coupling of two joints, may load the others alone.
+    #[must_use]
+    pub fn hidden_component(&self) -> Option<&'static str> {
+        let named = self.spec.component;
+        named.filter(|_| self.spec.common.slots.len() > 2)
+    }
+
     /// Entries (component, row) of the map from multipliers to the reaction that are not
     /// identically zero, sorted.
     #[must_use]

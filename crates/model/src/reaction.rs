@@ -96,13 +96,46 @@ impl std::ops::Deref for Axes {
 pub struct Reactions<'a> {
     mechanism: &'a Mechanism,
     s: &'a Scratch,
+    /// In place of the one of the mechanism.
+    other: Option<&'a ConstraintCopy>,
+}
+
+/// A joint or drive of a mechanism that may store other numbers.
+#[derive(Clone)]
+pub struct ConstraintCopy {
+    id: ConstraintId,
+    placed: PlacedConstraint,
+}
+
+impl ConstraintCopy {
+    /// Changes its numbers, in the order of [`crate::data::Data::numbers`], also those that it has
+    /// taken from the start. Axes turn by their rotation vector from where they are.
+    ///
+    /// # Panics
+    /// If there are fewer numbers than it stores.
+    pub fn set_numbers(&mut self, own: &[f64]) {
+        self.placed.set_data(own);
+    }
 }
 
 impl Mechanism {
     /// Its reactions at the poses of the scratch.
     #[must_use]
     pub fn reactions<'a>(&'a self, s: &'a Scratch) -> Reactions<'a> {
-        Reactions { mechanism: self, s }
+        Reactions {
+            mechanism: self,
+            s,
+            other: None,
+        }
+    }
+
+    /// A copy of a joint or drive; allocates. Panics if there is no such joint or drive.
+    #[must_use]
+    pub fn copy_of(&self, id: ConstraintId) -> ConstraintCopy {
+        ConstraintCopy {
+            id,
+            placed: self.elements.constraints[id.0].clone(),
+        }
     }
 }
 
@@ -116,7 +149,25 @@ impl<'a> Reactions<'a> {
     }
 
     fn constraint(self, id: ConstraintId) -> &'a PlacedConstraint {
-        &self.mechanism.elements.constraints[id.0]
+        match self.other {
+            Some(other) if other.id == id => &other.placed,
+            _ => &self.mechanism.elements.constraints[id.0],
+        }
+    }
+
+    /// The reactions with a copy of a joint or drive of the mechanism in its place.
+    #[must_use]
+    pub fn with(self, other: &'a ConstraintCopy) -> Self {
+        Self {
+            other: Some(other),
+            ..self
+        }
+    }
+
+    /// The space of the mechanism.
+    #[must_use]
+    pub fn space(self) -> SpaceKind {
+        self.layout().space
     }
 
     /// The point where the reaction of a joint or drive is reported (m), ground axes.

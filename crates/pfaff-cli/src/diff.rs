@@ -209,7 +209,7 @@ fn verdicts(names: &[String; 2], c: &Comparison<'_>) -> String {
 }
 
 /// The verdict of a reaction, with its type if the types differ, and its components that are not
-/// unique.
+/// unique or fragile.
 fn words(r: &ReactionDocument, with_type: bool) -> String {
     let verdict = r.said();
     let free = r
@@ -217,10 +217,18 @@ fn words(r: &ReactionDocument, with_type: bool) -> String {
         .iter()
         .filter(|c| c.verdict.verdict == "not_unique");
     let free: Vec<&str> = free.map(|c| c.name).collect();
-    let verdict = if free.is_empty() {
+    let mut notes = free.join(", ");
+    let names = r.fragile_names();
+    if !names.is_empty() && names != [r.name.clone()] {
+        let fragile = r.components.iter().filter(|c| c.data.fragile);
+        let fragile: Vec<&str> = fragile.map(|c| c.name).collect();
+        let separator = if notes.is_empty() { "" } else { "; " };
+        notes.push_str(&format!("{separator}FRAGILE: {}", fragile.join(", ")));
+    }
+    let verdict = if notes.is_empty() {
         verdict
     } else {
-        format!("{verdict} ({})", free.join(", "))
+        format!("{verdict} ({notes})")
     };
     if with_type {
         format!("{}, {verdict}", r.kind)

@@ -71,9 +71,13 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
         let refused = show(&path).err();
         refused.map_or_else(String::new, |reason| format!("not opened: {reason}\n"))
     };
-    let fragile = match fragile {
-        0 => String::new(),
-        n => format!(", {n} unique but FRAGILE"),
+    let whole = start.document.fragile_reactions();
+    let whole = whole.filter(|r| r.wrench.verdict == "unique").count();
+    let fragile = match (whole, fragile - whole) {
+        (0, 0) => String::new(),
+        (n, 0) => format!(", {n} unique but FRAGILE"),
+        (0, n) => format!(", {n} with FRAGILE components"),
+        (whole, n) => format!(", {whole} unique but FRAGILE, {n} with FRAGILE components"),
     };
     let boxes = missing(&boxes);
     console.print(&format!(

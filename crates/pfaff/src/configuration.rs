@@ -2,6 +2,7 @@
 //! result; nothing else is computed.
 
 mod document;
+mod numbers;
 pub(crate) mod requests;
 
 use std::sync::Arc;
@@ -14,9 +15,9 @@ use scene::Scene;
 use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Continuation, Contradiction, Distribution,
     EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GroupVerdict, MomentVerdict,
-    Numbers, Proposals, Questions, ReactionVerdict, Rows, Sensitivities, Solution, State,
-    UnitCheck, analyse_decided, analyse_dropping, analyse_with_progress, generic, is_locked,
-    second_order, solution,
+    Numbers, Proposals, Questions, ReactionNumber, ReactionVerdict, Rows, Sensitivities,
+    Sensitivity, Solution, State, UnitCheck, analyse_decided, analyse_dropping,
+    analyse_with_progress, generic, is_locked, second_order, solution,
 };
 
 use crate::error::StudyError;
@@ -211,8 +212,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(numbers.collect::<Result<_, _>>()?)
     }
 
-    /// Computes how strongly each unique reaction depends on the data. Reactions are left out if
-    /// the rank is undecided.
+    /// Computes how strongly each unique component of a reaction depends on the data. Reactions are
+    /// left out if the rank is undecided.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -237,16 +238,31 @@ impl<'a> ConfigurationAnalysis<'a> {
             let reactions = &self.analysis.reactions;
             let are_asked = self.analysis.decision.is_decided()
                 && reactions.iter().any(|r| r.wrench.verdict.is_unique());
-            let unknown = || {
+            let unknown = are_asked.then(|| {
                 "how strongly reactions depend on the data is not known: no velocities are known that satisfy the constraints"
                     .to_owned()
-            };
-            return Ok(Sensitivities {
-                each: vec![None; reactions.len()],
-                left_out: are_asked.then(unknown).into_iter().collect(),
             });
+            return Ok(Sensitivities::unknown(reactions.len(), unknown));
         }
         Ok(self.analysis.sensitivities(self.mechanism, q, v)?)
+    }
+
+    /// How strongly other unique numbers of the reactions depend on the data, such as sums, moments
+    /// and components in other frames; `None` where that is not known.
+    ///
+    /// # Errors
+    /// [`StudyError::Choice`]
+    pub fn sensitivities_of(
+        &self,
+        numbers: &[ReactionNumber],
+    ) -> Result<Vec<Option<Sensitivity>>, StudyError> {
+        let State { q, v } = &self.state;
+        if self.has_no_velocities() {
+            return Ok(vec![None; numbers.len()]);
+        }
+        Ok(self
+            .analysis
+            .sensitivities_of(self.mechanism, q, v, numbers)?)
     }
 
     /// Whether no velocities of this configuration are known: its rank can be proved, but not be

@@ -48,8 +48,8 @@ pub struct Comparison<'a> {
     pub removed: Vec<&'a ReactionDocument>,
     /// Joints and drives that only the second scene has.
     pub added: Vec<&'a ReactionDocument>,
-    /// Joints and drives whose type, number of rows or verdicts differ, or of which only one is
-    /// fragile, in the order of the first scene.
+    /// Joints and drives whose type, number of rows or verdicts differ, or of which a component
+    /// is fragile in only one, in the order of the first scene.
     pub verdicts: Vec<VerdictChange<'a>>,
     /// Dependencies of the first scene that the second does not have.
     pub gone: Vec<&'a DependencyDocument>,
@@ -124,7 +124,8 @@ impl<'a> Comparison<'a> {
 impl VerdictChange<'_> {
     fn is_one(&self) -> bool {
         let [a, b] = self.sides.map(|r| {
-            let components = r.components.iter().map(|c| (c.name, c.verdict.verdict));
+            let components = r.components.iter();
+            let components = components.map(|c| (c.name, c.verdict.verdict, c.data.fragile));
             let components: Vec<_> = components.collect();
             (
                 r.kind,

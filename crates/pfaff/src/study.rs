@@ -865,9 +865,8 @@ impl Begun<'_> {
 
     /// Whether a component is unique at the start, but determined by the last digits of the data.
     fn is_fragile(&self, id: ConstraintId, component: &str) -> bool {
-        let own = self.sensitivities.each.get(id.0).and_then(Option::as_ref);
+        let own = self.sensitivities.component(id, component);
         own.is_some_and(Sensitivity::is_fragile)
-            && self.start.analysis.reactions[id.0].determines(component)
     }
 
     fn document(&self, plan: &Plan<'_>, ended: &Ended, written: Written<'_>) -> RunDocument {

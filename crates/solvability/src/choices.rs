@@ -104,7 +104,8 @@ pub struct ReactionValues {
     pub id: ConstraintId,
     /// Its name.
     pub name: String,
-    /// Components (N, N·m) that are not identically zero, with their names.
+    /// Components (N, N·m) that are not identically zero, with their names, and the named component
+    /// as in [`crate::ReactionVerdict`].
     pub components: Vec<(&'static str, Value)>,
 }
 
@@ -224,8 +225,9 @@ impl Configuration<'_> {
         for (k, group) in layout.groups.iter().enumerate() {
             let id = ConstraintId(k);
             let mut components = Vec::new();
-            for c in group.components() {
-                let name = layout.space.components()[c];
+            let own = group.components().into_iter();
+            let own = own.map(|c| layout.space.components()[c]);
+            for name in own.chain(group.hidden_component()) {
                 let form = self.reactions.component(id, name)?;
                 components.push((name, distribution.value(self, &form)?));
             }

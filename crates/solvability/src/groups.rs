@@ -15,7 +15,7 @@ use rank::RankDecision;
 
 pub use configuration::Configuration;
 pub use error::RequestError;
-pub(crate) use error::{check, check_finite};
+pub(crate) use error::{check, check_finite, unknown_component};
 pub use form::LinearForm;
 pub(crate) use group::NO_REACTION;
 pub use group::{Group, Term};

@@ -27,7 +27,9 @@ pub struct ReactionVerdict {
     pub multipliers: Judgement,
     /// Verdicts on each of its rows.
     pub rows: Vec<RowVerdict>,
-    /// Verdicts on each component of the reaction that is not identically zero.
+    /// Verdicts on each component of the reaction that is not identically zero, and on the named
+    /// component of a definition between more than two bodies, as `load` of a coupling: force and
+    /// torque act on its first body and may not contain it.
     pub components: Vec<ComponentVerdict>,
     /// The components that are zero at this configuration under any load, such as the force along a
     /// knife edge: unique, but not informative.
@@ -68,7 +70,7 @@ pub struct RowVerdict {
 /// The verdict on one component of a reaction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComponentVerdict {
-    /// `Fx`, `Fy` or `T`.
+    /// `Fx`, `Fy` or `T`; in space `Fx` to `Tz`; or the named component of a definition.
     pub name: &'static str,
     /// Its verdict.
     pub judgement: Judgement,

@@ -28,7 +28,7 @@
 //! | `sparse`, `large` | one large set of joints, decided sparsely |
 //! | [`mod@explain`] | mixing, free directions and sentences |
 //! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |
-//! | [`sensitivity`] | how much a unique reaction depends on the data |
+//! | [`sensitivity`] | how much unique numbers of reactions depend on the data |
 //! | [`mod@second_order`] | whether the motion is unique at a drop of rank |
 //! | [`mod@stretches`] | verdicts of a run, by stretches of time and component |
 //! | [`along`] | verdicts along a motion: the generic verdict, and the times of others |
@@ -118,7 +118,7 @@ pub use rows::{
     Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows, rows_of_rank,
 };
 pub use second_order::{Continuation, Undetermined, blocked_velocities, is_locked, second_order};
-pub use sensitivity::{Datum, Sensitivities, Sensitivity};
+pub use sensitivity::{Datum, ReactionNumber, ReactionSensitivities, Sensitivities, Sensitivity};
 pub use state::{State, StateError};
 pub use stretches::{
     CarriedState, CarriedVerdicts, GroupStretches, Looked, ReactionStretches, SpecialInstant,

@@ -111,7 +111,8 @@ pub(crate) fn reaction(
             judgement: mapped.component(i)?,
         })
     });
-    let components = judged.collect::<Result<Vec<_>, QueryError>>()?;
+    let mut components = judged.collect::<Result<Vec<_>, QueryError>>()?;
+    components.extend(hidden_component(mechanism, id, s, basis, rows)?);
     let on_bodies = basis.group(rows.iter().copied())?;
     let free = components
         .iter()
@@ -178,3 +179,25 @@ pub(crate) fn component_map(
     });
     (components, map)
 }
+
+/// The verdict on the named component of a definition whose force and torque on the first body may
+/// not contain it.
+fn hidden_component(
+    mechanism: &Mechanism,
+    id: ConstraintId,
+    s: &Scratch,
+    basis: &Basis,
+    rows: &[usize],
+) -> Result<Option<ComponentVerdict>, QueryError> {
+    let Some(name) = mechanism.layout().groups[id.0].hidden_component() else {
+        return Ok(None);
+    };
+    let coefficients = mechanism.reactions(s).component_coefficients(id, name);
+    let coefficients = coefficients.unwrap_or_else(|| vec![0.0; rows.len()]);
+    let map = Matrix::from_fn(1, rows.len(), |_, j| coefficients[j]);
+    let judgement = basis.mapped(&map, rows.iter().copied())?.component(0)?;
+    Ok(Some(ComponentVerdict { name, judgement }))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,14 +1,16 @@
-//! How strongly a reaction depends on the data: by what fraction it changes if one point moves
-//! slightly. A reaction may be unique and yet be determined by the last digits of a drawing.
+//! How strongly numbers of reactions depend on the data: by what fraction a component, a direction,
+//! a sum or a moment changes if one point moves slightly. A number may be unique and yet be
+//! determined by the last digits of a drawing.
 //!
-//! With the rank held, `M·a + C_Kᵀ·λ = Q`, `C_K·a = Γ` change with a point through its own entries
-//! in C and Γ, through the pose, which follows so that `Φ_K = 0`, and through the velocities, which
-//! follow so that `C_K·v = b`. For a component `wᵀ·λ` one solution y of the same symmetric
-//! equations with right-hand side (0, w) gives the change with respect to all points at once:
-//! `y_aᵀ·(δQ − δCᵀ·λ) + y_λᵀ·(δΓ − δC·a)`.
+//! With the rank and the applied loads held, `M·a + C_Kᵀ·λ = Q`, `C_K·a = Γ` change with a point
+//! through its own entries in C and Γ, through the pose, which follows so that `Φ_K = 0`, and
+//! through the velocities, which follow so that `C_K·v = b`. For a number `w(q, d)ᵀ·λ` one solution
+//! y of the same symmetric equations with right-hand side (0, w) gives the change with respect to
+//! all points at once: `−y_aᵀ·δCᵀ·λ + y_λᵀ·(δΓ − δC·a) + δwᵀ·λ`.
 //!
 //! Size and loads are those of a set of connected bodies: the result for a robot is the same alone
-//! and in a fleet, even if springs couple it to others.
+//! and in a fleet, even if springs couple it to others. The load of a spring does not change, so a
+//! stiff spring makes no reaction fragile that the constraints determine well.
 //!
 //! Without any load no reaction could change. Then the result is computed for a load of 1 N on each
 //! body, in directions without symmetry, at rest and with equal masses: a combination of rows of
@@ -16,30 +18,30 @@
 //!
 //! Data whose uncertainty changes the rank itself are the subject of `numerical_rank`.
 
+mod by_sets;
+mod held;
 mod instant;
 mod joined;
+mod number;
+mod reactions;
 #[cfg(test)]
 mod tests;
 
-use crate::limits::{BEYOND, FRAGILE, MANY, ROWS_MAX};
-use crate::row_decision::RowDecision;
-use model::{ConstraintId, DataUnit, Layout, Mechanism, System};
+use crate::limits::{BEYOND, FRAGILE, MANY};
+use model::{ConstraintId, DataUnit, Layout};
 
-use crate::analysis::Analysis;
-use crate::choices::{ChoiceError, solution_under};
-use crate::groups::check;
-use crate::parts::{Extent, Partition};
-use crate::words;
-use instant::Instant;
-use joined::{Joined, each_joined};
+use instant::Change;
 
-/// Changes of a reaction with one point.
+pub use number::ReactionNumber;
+pub use reactions::{ReactionSensitivities, Sensitivities};
+
+/// Changes of a number of reactions with one point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Largest change, relative to the larger of the reaction and of the largest applied or
-    /// inertial load, torques divided by the size.
+    /// Largest change, relative to the larger of the number and of the largest applied or inertial
+    /// load, which is multiplied by the size for moments.
     pub change: f64,
-    /// The datum with the largest effect. `None` if nothing changes the reaction.
+    /// The datum with the largest effect. `None` if nothing changes the number.
     pub by: Option<Datum>,
 }
 
@@ -59,14 +61,29 @@ pub struct Datum {
 }
 
 impl Sensitivity {
-    /// Whether the reaction is fragile: it changes by more than the limit.
+    /// The change as a fraction; `None` if it is not known.
+    fn of(change: Change) -> Option<Self> {
+        let Change {
+            largest,
+            value,
+            load,
+            by,
+        } = change;
+        let share = match by {
+            None if largest == 0.0 => 0.0,
+            _ => largest / value.abs().max(load),
+        };
+        share.is_finite().then_some(Self { change: share, by })
+    }
+
+    /// Whether the number is fragile: it changes by more than the limit.
     #[must_use]
     pub fn is_fragile(&self) -> bool {
         self.change > FRAGILE
     }
 
-    /// A sentence about the reaction of this name: that it is unique but changes, by how much, and
-    /// with which datum.
+    /// A sentence about the reaction or number of this name: that it is unique but changes, by how
+    /// much, and with which datum.
     #[must_use]
     pub fn sentence(&self, reaction: &str, layout: &Layout) -> String {
         match &self.by {
@@ -139,215 +156,5 @@ pub fn length(metres: f64) -> String {
         x if x >= 1e-5 => format!("{:.2} mm", Digits(1e3 * metres)),
         x if x >= 1e-9 => format!("{:.2} µm", Digits(1e6 * metres)),
         _ => format!("{metres:.1e} m"),
-    }
-}
-
-/// Sensitivities of the reactions of a mechanism of any size.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Sensitivities {
-    /// Sensitivities of joints and drives in the order of their rows. `None` if the reaction is not
-    /// unique, or if the sensitivity cannot be computed.
-    pub each: Vec<Option<Sensitivity>>,
-    /// Sentences on unique reactions whose sensitivity cannot be computed, with the reason.
-    pub left_out: Vec<String>,
-}
-
-impl Sensitivities {
-    /// The fragile reactions.
-    pub fn fragile(&self) -> impl Iterator<Item = (ConstraintId, &Sensitivity)> {
-        let each = self.each.iter().enumerate();
-        let known = each.filter_map(|(k, s)| Some((ConstraintId(k), s.as_ref()?)));
-        known.filter(|(_, s)| s.is_fragile())
-    }
-
-    /// Sentences on the fragile reactions: one sentence for those whose largest change comes from
-    /// the same point.
-    #[must_use]
-    pub fn sentences(&self, layout: &Layout) -> Vec<String> {
-        let mut groups: Vec<(Option<Datum>, f64, Vec<ConstraintId>)> = Vec::new();
-        for (id, s) in self.fragile() {
-            match groups.iter_mut().find(|(by, ..)| *by == s.by) {
-                Some((_, change, ids)) => {
-                    *change = change.max(s.change);
-                    ids.push(id);
-                }
-                None => groups.push((s.by, s.change, vec![id])),
-            }
-        }
-        let sentence = |(by, change, ids): (Option<Datum>, f64, Vec<ConstraintId>)| {
-            let condition = by.map(|by| by.condition(layout)).unwrap_or_default();
-            let names = words::list(&words::names(layout, &ids));
-            let are = if ids.len() == 1 { "is" } else { "are" };
-            let change = told(change, ids.len());
-            format!("{names} {are} unique but {change} if {condition}")
-        };
-        groups.into_iter().map(sentence).collect()
-    }
-}
-
-impl Analysis {
-    /// Computes how strongly each unique reaction depends on the data, at the configuration of the
-    /// analysis and velocities v that satisfy the constraints. Each set of bodies connected by
-    /// joints and drives is examined separately, with its own size and loads, on the `rayon` thread
-    /// pool of the caller. In sets with too many rows for dense matrices, each part on common
-    /// cycles is examined with its own data and size, under the loads from the rest of the set.
-    /// Parts that are themselves too large, or whose rank is undecided, are left out.
-    ///
-    /// # Errors
-    /// [`ChoiceError::Request`]: q or v do not fit the mechanism.
-    pub fn sensitivities(
-        &self,
-        mechanism: &Mechanism,
-        q: &[f64],
-        v: &[f64],
-    ) -> Result<Sensitivities, ChoiceError> {
-        let layout = mechanism.layout();
-        let mut all = Sensitivities {
-            each: vec![None; layout.groups.len()],
-            left_out: Vec::new(),
-        };
-        let is_unique = |group: usize| self.reactions[group].wrench.verdict.is_unique();
-        if !self.decision.is_decided() || !(0..layout.groups.len()).any(is_unique) {
-            return Ok(all);
-        }
-        check("q", q, layout.n_q)?;
-        check("v", v, layout.n_v)?;
-        let kept = &self.decision.kept;
-        for judged in by_sets(mechanism, (self.time, q, v), kept, is_unique) {
-            match judged.found {
-                Ok(found) => {
-                    for (group, sensitivity) in found {
-                        all.each[group] = Some(sensitivity).filter(|s| s.change.is_finite());
-                    }
-                }
-                Err(reason) => all.left_out.push(format!(
-                    "the sensitivity of the reactions of {} to the data is not known: {reason}",
-                    judged.extent.name(mechanism)
-                )),
-            }
-        }
-        Ok(all)
-    }
-}
-
-/// Sensitivities with the numbers of their joints and drives.
-type Found = Vec<(usize, Sensitivity)>;
-
-/// Result for a set of connected bodies.
-struct JudgedSet {
-    extent: Extent,
-    /// Sensitivities, by joints and drives of the whole mechanism.
-    found: Result<Found, SetError>,
-}
-
-/// Reason why a set has no result.
-#[derive(Debug, thiserror::Error)]
-enum SetError {
-    #[error("{rows} rows share cycles, and matrices of all of them are made up to {max} rows", max = ROWS_MAX)]
-    TooLarge { rows: usize },
-    #[error(transparent)]
-    Equations(#[from] ChoiceError),
-}
-
-/// The sensitivities of the requested reactions, one set of connected bodies after the other.
-fn by_sets(
-    mechanism: &Mechanism,
-    (t, q, v): (f64, &[f64], &[f64]),
-    kept: &[usize],
-    is_wanted: impl Fn(usize) -> bool + Sync,
-) -> Vec<JudgedSet> {
-    let sensitivities = |joined: &Joined<'_>| {
-        let extent = joined.extent;
-        let kept = own_kept(kept, extent, joined.mechanism);
-        let is_wanted = |k: usize| is_wanted(extent.group(k));
-        let mut found = if joined.mechanism.layout().rows() <= ROWS_MAX {
-            of_joined(joined, t, &kept, is_wanted)
-        } else {
-            by_parts(joined, t, kept, is_wanted)
-        }?;
-        placed(&mut found, extent);
-        Ok(found)
-    };
-    each_joined(mechanism, (t, q, v), |joined, extent| JudgedSet {
-        found: match joined {
-            Ok(joined) => sensitivities(&joined),
-            Err(force) => Err(ChoiceError::from(force.clone()).into()),
-        },
-        extent: extent.clone(),
-    })
-}
-
-/// The rows of the whole mechanism (ascending) that belong to this part, numbered in the part.
-fn own_kept(kept: &[usize], extent: &Extent, part: &Mechanism) -> Vec<usize> {
-    let is_kept = |&row: &usize| kept.binary_search(&extent.row(row)).is_ok();
-    (0..part.layout().rows()).filter(is_kept).collect()
-}
-
-/// Renumbers joints and drives from the part to the whole mechanism.
-fn placed(found: &mut Found, extent: &Extent) {
-    for (group, sensitivity) in found {
-        *group = extent.group(*group);
-        if let Some(by) = &mut sensitivity.by {
-            by.joint = ConstraintId(extent.group(by.joint.0));
-        }
-    }
-}
-
-/// The sensitivities of the requested reactions of connected bodies with respect to all their data;
-/// joints and drives are numbered within the set.
-fn of_joined(
-    joined: &Joined<'_>,
-    t: f64,
-    kept: &[usize],
-    is_wanted: impl Fn(usize) -> bool,
-) -> Result<Found, SetError> {
-    let groups = 0..joined.mechanism.layout().groups.len();
-    let wanted: Vec<usize> = groups.filter(|&k| is_wanted(k)).collect();
-    if wanted.is_empty() {
-        return Ok(Found::new());
-    }
-    let mut instant = Instant::new(joined, t, kept)?;
-    let of = |k: usize| Ok((k, instant.of(ConstraintId(k))?));
-    wanted.into_iter().map(of).collect()
-}
-
-/// Like [`of_joined`], part by part, each with respect to its own data; parts that are too large
-/// are left out.
-fn by_parts(
-    joined: &Joined<'_>,
-    t: f64,
-    kept: Vec<usize>,
-    is_wanted: impl Fn(usize) -> bool + Sync,
-) -> Result<Found, SetError> {
-    let layout = joined.mechanism.layout();
-    let rows = layout.rows();
-    let is_kept = |row: &usize| kept.binary_search(row).is_ok();
-    let decision = RowDecision {
-        rank: kept.len(),
-        redundancy: rows - kept.len(),
-        dropped: (0..rows).filter(|row| !is_kept(row)).collect(),
-        kept: kept.clone(),
-        ..RowDecision::empty()
-    };
-    let state = (t, &joined.q[..], &joined.v[..]);
-    let solution = solution_under(joined.mechanism, state, &joined.force, &decision)?;
-    let parts = Partition::by_cycles(joined.mechanism, t, &joined.q);
-    let found = parts.map(joined.mechanism, |part, extent| {
-        if part.layout().rows() > ROWS_MAX {
-            return Ok(Found::new());
-        }
-        let is_wanted = |k: usize| is_wanted(extent.group(k));
-        if !(0..part.layout().groups.len()).any(is_wanted) {
-            return Ok(Found::new());
-        }
-        let kept = own_kept(&kept, &extent, part);
-        let within = joined.of_part(part, &extent, t, &solution);
-        let mut found = of_joined(&within, t, &kept, is_wanted)?;
-        placed(&mut found, &extent);
-        Ok::<_, SetError>(found)
-    })?;
-    match parts {
-        Partition::One => Err(SetError::TooLarge { rows }),
-        Partition::Several(_) => Ok(found.into_iter().flatten().collect()),
     }
 }

@@ -39,7 +39,9 @@ pub struct UnitCheck {
     pub id: ConstraintId,
     /// The frame.
     pub frame: Frame,
-    /// The component in this frame, as index of [`SpaceKind::components_in`].
+    /// The component in this frame, as index of [`SpaceKind::components_in`]; their number for the
+    /// named component of a definition, which is listed with the global frame where force and
+    /// torque may not contain it.
     pub component: usize,
     /// Its name.
     pub name: &'static str,
@@ -205,7 +207,10 @@ impl<'a> Numbers<'a> {
             for frame in Frame::ALL {
                 let found = configuration.reactions.in_frame(id, frame)?;
                 let forces_only = frame != Frame::Global;
-                let components = found.map_or(Vec::new(), |f| f.components);
+                let mut components = found.map_or(Vec::new(), |f| f.components);
+                if let Some(name) = group.hidden_component().filter(|_| !forces_only) {
+                    components.push((name, configuration.reactions.component(id, name)?));
+                }
                 for (component, (name, form)) in components.into_iter().enumerate() {
                     if forces_only && dimension(layout.space, component) == Dimension::Torque {
                         continue;

@@ -101,9 +101,19 @@ impl Derivatives {
     /// A force or a law calls a function, of which values alone are known.
     pub fn of(mechanism: &Mechanism) -> Result<Self, CalledForce> {
         let [force_dq, force_dv] = force_patterns(mechanism)?;
-        let mut d = Self {
+        Ok(Self {
             force_dq,
             force_dv,
+            ..Self::of_constraints(mechanism)
+        })
+    }
+
+    /// Like [`Derivatives::of`], without the applied forces: `∂Q/∂q` and `∂Q/∂v` have no entries.
+    #[must_use]
+    pub fn of_constraints(mechanism: &Mechanism) -> Self {
+        let mut d = Self {
+            force_dq: Sparse::default(),
+            force_dv: Sparse::default(),
             reaction_dq: Sparse::default(),
             residual_dq: Sparse::default(),
             gamma_dv: Sparse::default(),
@@ -120,7 +130,7 @@ impl Derivatives {
             d.gamma_dv.push_block(spec.d_gamma_dv, row, column);
             d.velocity_dq.push_block(spec.d_velocity_dx, row, column);
         }
-        Ok(d)
+        d
     }
 
     /// Computes the derivatives at the pose and the twist of the scratch, for accelerations `a`
@@ -151,6 +161,21 @@ impl Derivatives {
     /// # Panics
     /// If a slice is too short, or the storage belongs to another mechanism.
     pub fn differentiate(&mut self, mechanism: &Mechanism, a: &[f64], lambda: &[f64], s: &Scratch) {
+        self.differentiate_constraints(mechanism, a, lambda, s);
+        differentiate_forces(mechanism, s, [&mut self.force_dq, &mut self.force_dv]);
+    }
+
+    /// Like [`Derivatives::differentiate`], for the constraints alone; does not allocate.
+    ///
+    /// # Panics
+    /// As [`Derivatives::differentiate`].
+    pub fn differentiate_constraints(
+        &mut self,
+        mechanism: &Mechanism,
+        a: &[f64],
+        lambda: &[f64],
+        s: &Scratch,
+    ) {
         self.slots.take(mechanism.elements.sites(), a);
         let mut reaction_dq = self.reaction_dq.blocks();
         let mut residual_dq = self.residual_dq.blocks();
@@ -164,7 +189,6 @@ impl Derivatives {
             c.d_gamma_dv(s, gamma_dv(spec.d_gamma_dv.len()));
             c.d_velocity_dx(s, velocity_dq(spec.d_velocity_dx.len()));
         }
-        differentiate_forces(mechanism, s, [&mut self.force_dq, &mut self.force_dv]);
     }
 
     /// `∂Q/∂q` and `∂Q/∂v` alone, at the pose and the twist of the scratch; allocates.

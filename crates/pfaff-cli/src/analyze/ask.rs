@@ -1,6 +1,5 @@
 //! Answers the options of the command line for one configuration.
 
-use pfaff::model::System;
 use pfaff::rank::{DeletionError, Limits};
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
@@ -58,16 +57,11 @@ pub(super) fn document(
             .push(MakeUniqueDocument::new(name, &allowed, found));
     }
     if arguments.frames {
-        let ids = configuration.mechanism.layout().constraint_ids();
-        let frames: Result<Vec<_>, _> = ids.map(|id| configuration.frames(id)).collect();
-        document.add_frames(&frames.map_err(failure)?);
+        configuration.add_frames(&mut document).map_err(failure)?;
     }
     if let Some(about) = about {
-        let space = layout.space;
-        for id in layout.constraint_ids() {
-            let found = configuration.moment(id, about).map_err(failure)?;
-            document.add_moment(id, space, &found);
-        }
+        let added = configuration.add_moments(&mut document, layout.constraint_ids(), about);
+        added.map_err(failure)?;
     }
     if !choices.is_empty() {
         let facts = match configuration.facts() {

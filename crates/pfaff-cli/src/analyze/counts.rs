@@ -29,17 +29,14 @@ pub(super) fn verdicts(d: &AnalysisDocument) -> String {
         table.push(line);
     }
     let mut out = format!("\n{}", columns(&table));
-    let of_word = |word: &str| -> Vec<&str> {
+    let of_word = |word: &str| -> Vec<String> {
         let reactions = d.reactions.iter().filter(|r| r.wrench.verdict == word);
-        reactions.map(|r| r.name.as_str()).collect()
+        reactions.map(|r| r.name.clone()).collect()
     };
     for (names, said) in [
         (of_word("not_unique"), "not unique: "),
         (of_word("undecided"), "undecided: "),
-        (
-            d.fragile_reactions().map(|r| r.name.as_str()).collect(),
-            "unique but FRAGILE: ",
-        ),
+        (d.fragile_names(), "unique but FRAGILE: "),
     ] {
         if names.is_empty() {
             continue;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
     ComponentDocument, GroupDocument, MakeUniqueDocument, MixingDocument, ReactionDocument,
-    VerdictDocument,
+    SensitivityDocument, VerdictDocument,
 };
 
 use super::{along, counts, data, deletions, numbers, rank};
@@ -98,7 +98,7 @@ fn verdicts(d: &AnalysisDocument) -> String {
         let lead = format!("{:<12}", format!("{}:", spoken(word)));
         out.push_str(&wrapped(&lead, &names.join(", ")));
     }
-    let hanging: Vec<&str> = d.fragile_reactions().map(|r| r.name.as_str()).collect();
+    let hanging = d.fragile_names();
     if !hanging.is_empty() {
         let lead = format!("{:<12}", "FRAGILE:");
         out.push_str(&wrapped(&lead, &hanging.join(", ")));
@@ -127,7 +127,7 @@ fn line(r: &ReactionDocument) -> Vec<String> {
     });
     let rows = ranges.collect::<Vec<_>>().join(", ");
     let components = match r.wrench.verdict {
-        "unique" => String::new(),
+        "unique" => fragile_components(r),
         _ => each(&r.components) + &oblique(r),
     };
     vec![
@@ -138,6 +138,21 @@ fn line(r: &ReactionDocument) -> Vec<String> {
         margin(&r.wrench),
         components,
     ]
+}
+
+/// The fragile components of a unique reaction of which others are not fragile.
+fn fragile_components(r: &ReactionDocument) -> String {
+    let names = r.fragile_names();
+    if names == [r.name.clone()] {
+        return String::new();
+    }
+    let fragile = r.components.iter().filter(|c| c.data.fragile).cloned();
+    each(&fragile.collect::<Vec<_>>())
+}
+
+/// The addition to a verdict that depends on the last digits of the data.
+fn hanging(data: &SensitivityDocument) -> &'static str {
+    if data.fragile { ", FRAGILE" } else { "" }
 }
 
 /// The data that fragile reactions depend on.
@@ -180,7 +195,8 @@ fn each(components: &[ComponentDocument]) -> String {
     let words: Vec<String> = words
         .map(|c| {
             let spoken = spoken(c.verdict.verdict);
-            format!("{} {spoken}{}", c.name, within(&c.verdict))
+            let (within, fragile) = (within(&c.verdict), hanging(&c.data));
+            format!("{} {spoken}{within}{fragile}", c.name)
         })
         .collect();
     words.join(", ")
@@ -190,16 +206,16 @@ fn each(components: &[ComponentDocument]) -> String {
 fn oblique(r: &ReactionDocument) -> String {
     let is_oblique = |d: &&Vec<f64>| d.iter().filter(|x| **x != 0.0).count() > 1;
     let names = r.direction_components();
-    let told = r
-        .unique_directions
-        .iter()
-        .flatten()
-        .filter(is_oblique)
-        .map(|d| {
-            let terms = d.iter().zip(&names).filter(|(x, _)| **x != 0.0);
-            let terms: Vec<String> = terms.map(|(x, name)| format!("{x:.3}·{name}")).collect();
-            format!("; {} unique", terms.join(" + ").replace("+ -", "− "))
-        });
+    let directions = r.unique_directions.iter().flatten().enumerate();
+    let told = directions.filter(|(_, d)| is_oblique(d)).map(|(k, d)| {
+        let terms = d.iter().zip(&names).filter(|(x, _)| **x != 0.0);
+        let terms: Vec<String> = terms.map(|(x, name)| format!("{x:.3}·{name}")).collect();
+        let fragile = r.direction_sensitivities.get(k).map_or("", hanging);
+        format!(
+            "; {} unique{fragile}",
+            terms.join(" + ").replace("+ -", "− ")
+        )
+    });
     told.collect()
 }
 
@@ -207,8 +223,14 @@ fn groups(d: &AnalysisDocument) -> String {
     let mut out = String::new();
     for g in &d.groups {
         let mut text = format!(
-            "{} (margin {})",
+            "{}{} (margin {})",
             spoken(g.verdict.verdict),
+            // Of others the components say it.
+            if g.verdict.verdict == "unique" {
+                hanging(&g.data)
+            } else {
+                ""
+            },
             margin(&g.verdict)
         );
         text.push_str(&numbers_of(g));
@@ -229,7 +251,10 @@ fn numbers_of(g: &GroupDocument) -> String {
         return format!(": {}", numbers::number(sum.value));
     }
     let components = g.components.iter().map(|c| match value(c.name) {
-        Some(known) => format!("{} = {}", c.name, numbers::number(known.value)),
+        Some(known) => {
+            let (value, fragile) = (numbers::number(known.value), hanging(&c.data));
+            format!("{} = {value}{fragile}", c.name)
+        }
         None => format!("{} {}", c.name, spoken(c.verdict.verdict)),
     });
     let components: Vec<String> = components.collect();

@@ -173,6 +173,120 @@ fn a_pin_that_is_off_is_told_in_every_output() {
     assert_eq!(counts, [Some("6"), Some("6")]);
 }
 
+/// A lid of 18 kg on four hinges, one of them half a millimetre beside the line of the others.
+const HATCH: &str = "scene = { name = \"hatch\", space = \"spatial\", gravity = [0, 0, -9.81] }
+body = [{ name = \"lid\", mass = 18, inertia = [0.8, 1.2, 2], centre = [0, 0.35, 0.02] }]
+joint = [
+    { name = \"hinge 1\", type = \"revolute\", bodies = [\"ground\", \"lid\"], at = [-0.4, 0, 0], axis = [1, 0, 0] },
+    { name = \"hinge 2\", type = \"revolute\", bodies = [\"ground\", \"lid\"], at = [-0.15, 0, 0], axis = [1, 0, 0] },
+    { name = \"hinge 3\", type = \"revolute\", bodies = [\"ground\", \"lid\"], at = [0.15, 0.0005, 0], axis = [1, 0, 0] },
+    { name = \"hinge 4\", type = \"revolute\", bodies = [\"ground\", \"lid\"], at = [0.4, 0, 0], axis = [1, 0, 0] },
+]
+";
+
+/// No hinge is unique, but one component of one is, made of the half millimetre: W·c/e = 124 kN.
+#[test]
+fn a_component_that_hangs_on_the_last_digits_is_told_in_every_output() {
+    let folder = Folder::new("fragile-component");
+    fs::create_dir_all(&folder.0).expect("writable");
+    let hatch = folder.0.join("hatch.toml");
+    fs::write(&hatch, HATCH).expect("writable");
+    let hatch = hatch.to_str().expect("UTF-8");
+    let (sum, all) = (
+        "hinge 1.Fz + hinge 2.Fz + hinge 4.Fz",
+        "hinge 1 + hinge 2 + hinge 3 + hinge 4",
+    );
+    let combine = ["--combine", sum, "--combine", all];
+    let text = flat(&said(&[&["analyze", hatch][..], &combine].concat()));
+    for words in [
+        "FRAGILE: hinge 3.Fz",
+        "hinge 3 revolute 11–15 not unique, unique parts FRAGILE",
+        "Fz unique, FRAGILE",
+        "FRAGILE: `hinge 3.Fz` is unique but",
+        "hinge 1.Fz + hinge 2.Fz + hinge 4.Fz: unique, FRAGILE",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let arguments = [
+        "analyze", hatch, "--json", "--frames", "--about", "0.15,0,0",
+    ];
+    let d = document(&[&arguments[..], &combine].concat());
+    let hinge = &d["reactions"][2];
+    assert_eq!(
+        (&hinge["verdict"], &hinge["fragile"]),
+        (&"not_unique".into(), &true.into())
+    );
+    let of = |list: &Value, name: &str| {
+        let list = list.as_array().expect("a list").clone();
+        list.into_iter()
+            .find(|c| c["name"] == name)
+            .expect("such a component")
+    };
+    let fz = of(&hinge["components"], "Fz");
+    assert_eq!(
+        (&fz["verdict"], &fz["fragile"]),
+        (&"unique".into(), &true.into())
+    );
+    assert_eq!(fz["sensitivity"], hinge["sensitivity"]);
+    assert!(
+        fz["hangs_on"]
+            .as_str()
+            .is_some_and(|s| s.starts_with("`hinge 3.Fz` is unique but"))
+    );
+    let fx = of(&hinge["components"], "Fx");
+    assert_eq!(
+        (&fx["sensitivity"], &fx["fragile"]),
+        (&Value::Null, &false.into())
+    );
+    assert_eq!(d["reactions"][0]["fragile"], false);
+    let in_frame = of(&hinge["frames"][0]["components"], "Fz");
+    assert_eq!(in_frame["sensitivity"], fz["sensitivity"]);
+    assert_eq!(
+        (&d["groups"][0]["verdict"], &d["groups"][0]["fragile"]),
+        (&"unique".into(), &true.into())
+    );
+    // The weight is that of the lid, whatever the hinges do.
+    let whole = of(&d["groups"][1]["components"], "Fz");
+    assert_eq!(
+        (&whole["verdict"], &whole["fragile"]),
+        (&"unique".into(), &false.into())
+    );
+    assert!(
+        whole["sensitivity"].as_f64().is_some_and(|x| x < 1e-3),
+        "{whole:#}"
+    );
+
+    assert!(flat(&said(&["check", hatch])).contains("warning: `hinge 3.Fz` is unique but"));
+    let picture = folder.0.join("hatch.svg");
+    let view = [
+        "view",
+        hatch,
+        "--no-open",
+        "--out",
+        picture.to_str().expect("UTF-8"),
+    ];
+    assert!(said(&view).contains("4 not unique, 1 with FRAGILE components"));
+    let page = folder.0.join("hatch.html");
+    said(&[
+        "view",
+        hatch,
+        "--no-open",
+        "--out",
+        page.to_str().expect("UTF-8"),
+    ]);
+    let page = folder.read("hatch.html");
+    assert!(
+        page.contains("Unique components of the reactions of hinge 3 are fragile"),
+        "headline"
+    );
+    assert!(page.contains("not unique, unique parts fragile"), "table");
+    let straight = folder.0.join("straight.toml");
+    fs::write(&straight, HATCH.replace("0.0005", "0")).expect("writable");
+    let straight = straight.to_str().expect("UTF-8");
+    let text = said(&["diff", hatch, straight]);
+    assert!(text.contains("FRAGILE: Fz"), "{text}");
+}
+
 /// The verdicts are equal, and only one of them depends on the last digits of the data.
 #[test]
 fn a_difference_in_nothing_else_is_told() {

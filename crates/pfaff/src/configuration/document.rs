@@ -5,7 +5,7 @@ use report::AnalysisDocument;
 use report::documents::{EliminationsDocument, GroupDocument};
 use solvability::{ReactionVerdict, Verdict};
 
-use super::ConfigurationAnalysis;
+use super::{ConfigurationAnalysis, requests};
 use crate::error::StudyError;
 
 impl ConfigurationAnalysis<'_> {
@@ -64,6 +64,12 @@ impl ConfigurationAnalysis<'_> {
         }
         let sensitivities = self.sensitivities()?;
         document.add_sensitivities(&sensitivities, self.mechanism.layout());
+        let asked = requests::groups(self.scene, self.mechanism, combine)?.into_iter();
+        let asked = asked.map(|(_, group)| group);
+        let asked: Vec<_> = asked
+            .zip(groups.iter().map(|(_, verdict)| verdict))
+            .collect();
+        self.add_group_sensitivities(&mut document, &asked, &sensitivities)?;
         document.warnings.extend(sensitivities.left_out);
         document.warnings.extend(self.scene.cautions());
         document.add_notes(self.mechanism.layout());

@@ -16,7 +16,7 @@ use reaction::components;
 use serde::Serialize;
 use solvability::{
     Analysis, Dependency, Explanation, FrameVerdict, Freedoms, Generic, Mixing, MomentVerdict,
-    PartAnalysis, ReactionVerdict, Sensitivities,
+    PartAnalysis, ReactionVerdict, Sensitivities, Sensitivity,
 };
 
 pub use along::{
@@ -33,7 +33,7 @@ pub use reaction::{
     ReactionDocument, RowDocument,
 };
 
-use super::{FreedomsDocument, SensitivityDocument, VerdictDocument, from_one};
+use super::{FreedomsDocument, VerdictDocument, from_one};
 
 /// Ranks and verdicts of one configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -55,7 +55,7 @@ pub struct AnalysisDocument {
     pub reactions: Vec<ReactionDocument>,
     /// Verdicts of combinations that were asked for; [`AnalysisDocument::new`] leaves it empty.
     pub groups: Vec<GroupDocument>,
-    /// Which unique reactions are fragile and what they hang on, in words.
+    /// Which unique reactions and components are fragile and what they hang on, in words.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fragile: Vec<String>,
     /// Why reactions are not unique.
@@ -259,18 +259,50 @@ impl AnalysisDocument {
         self
     }
 
-    /// Adds how strongly each unique reaction depends on the data. The sensitivities must belong to
-    /// the analysis.
+    /// Adds how strongly unique components and directions of reactions depend on the data. The
+    /// sensitivities must belong to the analysis.
     pub fn add_sensitivities(&mut self, all: &Sensitivities, layout: &Layout) {
         self.fragile = all.sentences(layout);
         for (k, reaction) in self.reactions.iter_mut().enumerate() {
-            reaction.data = SensitivityDocument::of(all, ConstraintId(k), layout);
+            reaction.add_sensitivities(all, ConstraintId(k), layout);
         }
     }
 
-    /// The fragile unique reactions.
+    /// Adds how strongly components in other frames depend on the data: one sensitivity for each
+    /// unique one, in their order.
+    pub fn add_frame_sensitivities(&mut self, found: Vec<Option<Sensitivity>>, layout: &Layout) {
+        let reactions = self.reactions.iter_mut();
+        let all = reactions.flat_map(|r| {
+            let name = &r.name;
+            let frames = r.frames.iter_mut();
+            frames.flat_map(move |f| f.components.iter_mut().map(move |c| (name, c)))
+        });
+        ComponentDocument::add_sensitivities(all, found, layout);
+    }
+
+    /// The same for moments about another point.
+    pub fn add_moment_sensitivities(&mut self, found: Vec<Option<Sensitivity>>, layout: &Layout) {
+        let reactions = self.reactions.iter_mut();
+        let all = reactions.flat_map(|r| {
+            let name = &r.name;
+            let moments = r.moment.iter_mut();
+            moments.flat_map(move |m| m.components.iter_mut().map(move |c| (name, c)))
+        });
+        ComponentDocument::add_sensitivities(all, found, layout);
+    }
+
+    /// The reactions with a fragile component.
     pub fn fragile_reactions(&self) -> impl Iterator<Item = &ReactionDocument> {
         self.reactions.iter().filter(|r| r.data.fragile)
+    }
+
+    /// The names of what is fragile: of reactions, or else of their components.
+    #[must_use]
+    pub fn fragile_names(&self) -> Vec<String> {
+        let reactions = self.reactions.iter();
+        reactions
+            .flat_map(ReactionDocument::fragile_names)
+            .collect()
     }
 
     /// Adds why the reactions are not unique. The explanation must belong to the analysis.

@@ -134,7 +134,7 @@ pub struct ViewDocument<'a> {
     pub reactions: usize,
     /// Number of reactions that are not unique.
     pub not_unique: usize,
-    /// Number of reactions that are unique, but fragile.
+    /// Number of reactions with a unique component that is fragile.
     pub fragile: usize,
     /// Mobility n_v − r.
     pub mobility: usize,

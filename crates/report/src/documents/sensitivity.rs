@@ -1,16 +1,18 @@
-//! How strongly a unique reaction depends on the data.
+//! How strongly a unique number of a reaction depends on the data.
 
 use model::{ConstraintId, Layout};
 use serde::Serialize;
-use solvability::Sensitivities;
+use solvability::{Sensitivities, Sensitivity};
 
-/// How strongly a unique reaction depends on the data, and whether it is fragile.
+/// How strongly a unique reaction, component, direction, sum or moment depends on the data, and
+/// whether it is fragile.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SensitivityDocument {
-    /// Largest change of the reaction when one point moves by 1e-4 of the size, or by its
-    /// tolerance, relative to the larger of the reaction and of the largest load, to three digits;
-    /// `null` if the reaction is not unique, or if not requested.
+    /// Largest change of the number when one point moves by 1e-4 of the size, or by its tolerance,
+    /// relative to the larger of the number and of the largest load, to three digits; of a reaction
+    /// the largest of its unique components. `null` if nothing is unique, or if not
+    /// requested.
     pub sensitivity: Option<f64>,
     /// Whether the change is above 10 %.
     pub fragile: bool,
@@ -23,14 +25,35 @@ impl SensitivityDocument {
     /// The sensitivity of the joint or drive with this number.
     #[must_use]
     pub fn of(all: &Sensitivities, id: ConstraintId, layout: &Layout) -> Self {
-        let Some(own) = all.each.get(id.0).and_then(Option::as_ref) else {
-            return Self::default();
-        };
+        let text = || all.sentences_of(id, layout).join("; ");
+        all.reaction(id)
+            .map_or_else(Self::default, |own| Self::with(own, text))
+    }
+
+    /// The sensitivity of a number with this name.
+    #[must_use]
+    pub fn of_number(found: Option<&Sensitivity>, name: &str, layout: &Layout) -> Self {
+        found.map_or_else(Self::default, |own| {
+            Self::with(own, || own.sentence(name, layout))
+        })
+    }
+
+    fn with(own: &Sensitivity, text: impl FnOnce() -> String) -> Self {
         let fragile = own.is_fragile();
         Self {
             sensitivity: Some(three_digits(own.change)),
             fragile,
-            hangs_on: fragile.then(|| own.sentence(&layout.groups[id.0].name, layout)),
+            hangs_on: fragile.then(text),
+        }
+    }
+
+    /// The larger of two.
+    #[must_use]
+    pub(super) fn or_larger(self, other: &Self) -> Self {
+        if other.sensitivity > self.sensitivity {
+            other.clone()
+        } else {
+            self
         }
     }
 }

@@ -16,8 +16,8 @@ use rank::{Certificate, Doubt, Evidence, Grounds, NearlyRedundant, RankDecision,
 use serde_json::Value;
 use solvability::{
     Analysis, ComponentVerdict, Datum, Dependency, Extent, Freedoms, Generic, Judgement,
-    PartAnalysis, PartDecision, ReactionVerdict, RowVerdict, Sensitivities, Sensitivity, Verdict,
-    analyse,
+    PartAnalysis, PartDecision, ReactionSensitivities, ReactionVerdict, RowVerdict, Sensitivities,
+    Sensitivity, Verdict, analyse,
 };
 
 use super::{
@@ -165,16 +165,16 @@ fn analysis_has_the_keys_of_the_contract() {
               "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false, "multipliers": "not_unique",
               "row_verdicts": [ { "row": 1, "verdict": "unique", "margin": 0.0, "within_tolerance": false },
                                 { "row": 2, "verdict": "not_unique", "margin": 0.5, "within_tolerance": false } ],
-              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0, "within_tolerance": false },
-                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5, "within_tolerance": false } ],
+              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0, "within_tolerance": false, "sensitivity": null, "fragile": false },
+                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false } ],
               "unique_directions": [[1.0, 0.0]],
               "settled": null, "explanation": null, "free_directions": [] },
             { "name": "lower \"2\"", "type": "revolute", "rows": [3, 4],
               "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false, "multipliers": "not_unique",
               "row_verdicts": [ { "row": 3, "verdict": "unique", "margin": 0.0, "within_tolerance": false },
                                 { "row": 4, "verdict": "not_unique", "margin": 0.5, "within_tolerance": false } ],
-              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0, "within_tolerance": false },
-                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5, "within_tolerance": false } ],
+              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0, "within_tolerance": false, "sensitivity": null, "fragile": false },
+                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false } ],
               "unique_directions": [[1.0, 0.0]],
               "settled": null, "explanation": null, "free_directions": [] } ],
         "groups": [],
@@ -358,20 +358,23 @@ fn summary_has_the_keys_of_the_contract() {
     let prepared = prepared();
     let freedoms = freedoms(&prepared);
     let plan = planned(&prepared);
+    let sensitivity = Sensitivity {
+        change: 0.25,
+        by: Some(Datum {
+            joint: ConstraintId(1),
+            name: "s_i",
+            moved: 2e-4,
+            unit: DataUnit::Length,
+            is_number: false,
+        }),
+    };
+    let upper = ReactionSensitivities {
+        components: vec![("Fx", sensitivity)],
+        directions: Vec::new(),
+        is_whole: true,
+    };
     let sensitivities = Sensitivities {
-        each: vec![
-            Some(Sensitivity {
-                change: 0.25,
-                by: Some(Datum {
-                    joint: ConstraintId(1),
-                    name: "s_i",
-                    moved: 2e-4,
-                    unit: DataUnit::Length,
-                    is_number: false,
-                }),
-            }),
-            None,
-        ],
+        each: vec![upper, ReactionSensitivities::default()],
         left_out: Vec::new(),
     };
     let run = Run {

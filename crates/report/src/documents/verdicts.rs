@@ -77,8 +77,9 @@ pub struct RunNumberDocument {
     /// The verdict over the run.
     #[serde(flatten)]
     pub of_run: TrackDocument,
-    /// Whether the last digits of the data determine it.
-    pub fragile: bool,
+    /// How strongly it depends on the data at the start.
+    #[serde(flatten)]
+    pub data: SensitivityDocument,
     /// The largest value over the determined cells of the table; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak: Option<PeakDocument>,
@@ -140,30 +141,39 @@ pub struct RunVerdicts<'a> {
 }
 
 impl RunVerdicts<'_> {
-    fn column(&self, quantity: Quantity) -> Option<(&ReactionColumn, Option<PeakDocument>)> {
+    fn peak(&self, quantity: Quantity) -> Option<PeakDocument> {
         let k = self.columns.iter().position(|c| c.quantity == quantity)?;
-        let peak = self.peaks.get(k)?.as_ref().map(|peak| PeakDocument {
+        let peak = self.peaks.get(k)?.as_ref()?;
+        Some(PeakDocument {
             value: peak.value,
             time: peak.time,
             over: peak.over.clone(),
-        });
-        Some((&self.columns[k], peak))
+        })
     }
 
     fn number(&self, quantity: Quantity, track: &VerdictTrack) -> RunNumberDocument {
-        let known = self.column(quantity);
         RunNumberDocument {
             of_run: track.into(),
-            fragile: known.as_ref().is_some_and(|(column, _)| column.fragile),
-            peak: known.and_then(|(_, peak)| peak),
+            data: SensitivityDocument::default(),
+            peak: self.peak(quantity),
         }
     }
 
-    fn components(&self, found: &ReactionStretches) -> Named<RunNumberDocument> {
+    fn components(
+        &self,
+        found: &ReactionStretches,
+        sensitivities: &Sensitivities,
+        layout: &Layout,
+    ) -> Named<RunNumberDocument> {
+        let owner = &layout.groups[found.id.0].name;
         let own = found.components.iter();
         let own = own.map(|(name, track)| {
-            let quantity = Quantity::Component(found.id, name);
-            ((*name).to_owned(), self.number(quantity, track))
+            let known = sensitivities.component(found.id, name);
+            let number = RunNumberDocument {
+                data: SensitivityDocument::of_number(known, &format!("{owner}.{name}"), layout),
+                ..self.number(Quantity::Component(found.id, name), track)
+            };
+            ((*name).to_owned(), number)
         });
         Named(own.collect())
     }
@@ -234,7 +244,7 @@ impl RunReactionDocument {
             data: SensitivityDocument::of(sensitivities, at_start.id, mechanism.layout()),
             at_start: (&at_start.wrench).into(),
             components: match (run, found) {
-                (Some(run), Some(found)) => run.components(found),
+                (Some(run), Some(found)) => run.components(found, sensitivities, mechanism.layout()),
                 _ => Named(Vec::new()),
             },
         }

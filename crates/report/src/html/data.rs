@@ -261,6 +261,7 @@ fn components(page: &RunPage<'_>, id: ConstraintId) -> Vec<Component> {
     let at_start = page.analysis.and_then(|a| a.reactions.get(id.0));
     let known = at_start.map_or(&[][..], |r| &r.components).iter();
     known
+        .filter(|c| group.space.component(c.name).is_some())
         .map(|c| Component {
             name: c.name,
             unit: unit(group.space, c.name),

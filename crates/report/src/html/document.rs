@@ -160,8 +160,14 @@ fn answer(page: &RunPage<'_>) -> String {
         of_it.map(|(name, ..)| *name).collect()
     };
     let (unique, open, doubt) = (of("unique"), of("not_unique"), of("undecided"));
-    let fragile = all.iter().filter(|(.., is_fragile)| *is_fragile);
-    let fragile: Vec<&str> = fragile.map(|(name, ..)| *name).collect();
+    // Whole reactions, and those of which unique components are fragile.
+    let of_fragile = |is_whole: bool| -> Vec<&str> {
+        let of_it = all
+            .iter()
+            .filter(|(_, verdict, is_fragile)| *is_fragile && (*verdict == "unique") == is_whole);
+        of_it.map(|(name, ..)| *name).collect()
+    };
+    let (fragile, partly) = (of_fragile(true), of_fragile(false));
     let mut text = String::new();
     if let Some(a) = page.analysis {
         if a.configuration.rows == 0 {
@@ -224,6 +230,15 @@ fn answer(page: &RunPage<'_>) -> String {
     }
     if !open.is_empty() && !fragile.is_empty() {
         add(&mut text, format_args!("<b>{}</b>. ", hanging(&fragile)));
+    }
+    if !partly.is_empty() {
+        add(
+            &mut text,
+            format_args!(
+                "<b>Unique components of the reactions of {} are fragile, made of the last digits of the data</b>. ",
+                names_in_words(&partly)
+            ),
+        );
     }
     if !doubt.is_empty() {
         add(
@@ -294,7 +309,7 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
     tiles.push((format!("{unique} of {}", all.len()), "reactions unique"));
     match all.iter().filter(|(.., is_fragile)| *is_fragile).count() {
         0 => {}
-        n => tiles.push((n.to_string(), "of them fragile")),
+        n => tiles.push((n.to_string(), "with fragile components")),
     }
     if let Some(run) = page.run() {
         tiles.push((format!("{} s", run.t_end), "of motion"));

@@ -69,13 +69,14 @@ fn table(out: &mut String, page: &RunPage<'_>, reactions: &[&ReactionDocument]) 
         };
         let of_run = page.run().and_then(|run| run.reactions.get(&r.name));
         let verdict = of_run.map_or(r.wrench.verdict, RunReactionDocument::verdict);
-        let is_fragile = r.data.fragile && verdict == "unique";
-        let said = if is_fragile {
-            "unique, fragile".to_owned()
-        } else {
-            verdict.replace('_', " ")
-        };
-        let badge = if is_fragile { "fragile" } else { verdict };
+        let mut said = verdict.replace('_', " ");
+        if r.data.fragile {
+            said.push_str(match verdict {
+                "unique" => ", fragile",
+                _ => ", unique parts fragile",
+            });
+        }
+        let badge = if r.data.fragile { "fragile" } else { verdict };
         let why = match of_run {
             Some(run) if verdict != r.wrench.verdict => over_the_run(r, run),
             _ => reason(r),
@@ -119,9 +120,21 @@ fn reason(r: &ReactionDocument) -> String {
     if let Some(reason) = &r.wrench.reason {
         return reason.clone();
     }
-    if let Some(text) = &r.data.hangs_on {
-        return text.clone();
+    let hanging = r.data.hangs_on.clone();
+    if r.wrench.verdict == "unique"
+        && let Some(text) = hanging
+    {
+        return text;
     }
+    let why = because(r);
+    match hanging {
+        Some(text) => format!("{why}; {text}"),
+        None => why,
+    }
+}
+
+/// Why a reaction is unique or not, apart from what it depends on.
+fn because(r: &ReactionDocument) -> String {
     match (&r.explanation, r.settled, r.wrench.verdict) {
         (Some(text), ..) => {
             // The column before contains this text.

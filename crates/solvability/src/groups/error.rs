@@ -2,6 +2,7 @@
 
 use crate::matrices::QueryError;
 use model::codes::Code;
+use model::{ConstraintId, Mechanism, System};
 
 /// Reason why a request cannot be answered.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -100,6 +101,32 @@ impl RequestError {
                 const { Code::new(311) }
             }
         }
+    }
+}
+
+/// The error for a joint or drive that does not exist, or else for a component that it does not
+/// have.
+pub(crate) fn unknown_component(
+    mechanism: &Mechanism,
+    id: ConstraintId,
+    name: &str,
+) -> RequestError {
+    let groups = &mechanism.layout().groups;
+    let Some(group) = groups.get(id.0) else {
+        return RequestError::UnknownReaction {
+            id: id.0,
+            reactions: groups.len(),
+        };
+    };
+    let named = group.spec.component.map(|name| format!(", `{name}`"));
+    RequestError::UnknownComponent {
+        reaction: group.name.clone(),
+        component: name.to_owned(),
+        available: format!(
+            "`{}`{}",
+            mechanism.space().components().join("`, `"),
+            named.unwrap_or_default()
+        ),
     }
 }
 

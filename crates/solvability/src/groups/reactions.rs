@@ -7,7 +7,7 @@ use linalg::Matrix;
 use model::space::norm;
 use model::{ConstraintId, Mechanism, RowRanges, Scratch, SpaceKind, System};
 
-use super::error::{RequestError, check, check_finite};
+use super::error::{RequestError, check, check_finite, unknown_component};
 use super::form::LinearForm;
 use super::group::{Group, NO_REACTION, Term};
 
@@ -118,19 +118,8 @@ impl<'a> ReactionForms<'a> {
             .mechanism
             .reactions(&self.s)
             .component_coefficients(id, name);
-        let Some(coefficients) = coefficients else {
-            let group = &self.mechanism.layout().groups[id.0];
-            let named = group.spec.component.map(|name| format!(", `{name}`"));
-            return Err(RequestError::UnknownComponent {
-                reaction: group.name.clone(),
-                component: name.to_owned(),
-                available: format!(
-                    "`{}`{}",
-                    self.mechanism.space().components().join("`, `"),
-                    named.unwrap_or_default()
-                ),
-            });
-        };
+        let coefficients =
+            coefficients.ok_or_else(|| unknown_component(&self.mechanism, id, name))?;
         let rows = self.rows(id).iter();
         let mut form = self.zero();
         form.add(&rows.zip(coefficients).collect::<Vec<_>>())?;

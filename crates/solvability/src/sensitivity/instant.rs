@@ -1,18 +1,21 @@
-//! The solved equations of motion of connected bodies at one instant, and the gradients of
-//! reactions with respect to all data.
+//! The solved equations of motion of connected bodies at one instant, and the gradients of numbers
+//! of reactions with respect to all data.
 
 use crate::limits::{LOAD_ROUNDING, MOVED, PIECE, SAME_EFFECT};
 use crate::pose::velocity_units;
 use std::borrow::Cow;
 
 use linalg::{KeptRowSaddle, Matrix, PivotedQr};
+use model::space::norm;
 use model::start::scene_size;
 use model::{
     ColumnKind, ConstraintId, DataBlock, DataGradients, DataUnit, Derivatives, Mechanism, System,
 };
 
+use super::Datum;
+use super::held::{Held, HeldSlopes};
 use super::joined::Joined;
-use super::{Datum, Sensitivity};
+use super::number::ReactionNumber;
 use crate::choices::ChoiceError;
 
 /// Angle between the directions of successive unit loads (rad): the golden angle, which is far from
@@ -22,12 +25,13 @@ const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 /// The solved equations of connected bodies at one instant.
 pub(super) struct Instant<'a> {
     mechanism: &'a Mechanism,
+    q: &'a [f64],
     s: model::Scratch,
     kept: &'a [usize],
     size: f64,
     saddle: KeptRowSaddle,
     lambda: Vec<f64>,
-    slopes: Slopes<'a>,
+    slopes: Slopes,
     /// Points, directions and numbers, with the displacement of each.
     blocks: Vec<(DataBlock, f64)>,
     /// Largest applied or inertial load (N; torques divided by the size).
@@ -35,12 +39,10 @@ pub(super) struct Instant<'a> {
     work: Work,
 }
 
-/// Derivatives of the equations with respect to pose, velocities and data.
-struct Slopes<'a> {
+/// Derivatives of the constraints with respect to pose, velocities and data. Applied loads stay as
+/// they are.
+struct Slopes {
     derivatives: model::Derivatives,
-    /// Derivatives of the applied forces; empty for unit loads.
-    force_dq: &'a [(usize, usize, f64)],
-    force_dv: &'a [(usize, usize, f64)],
     by_data: DataGradients,
     /// Factored kept rows of C, if anything depends on velocities, and of Φ, with columns in
     /// velocity units.
@@ -102,7 +104,6 @@ impl<'a> Instant<'a> {
         let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; kept.len()]);
         saddle.solve(&joined.force, &gamma, &mut a, &mut of_kept)?;
         let mut v = Cow::Borrowed(&joined.v[..]);
-        let (mut force_dq, mut force_dv) = (&joined.force_dq[..], &joined.force_dv[..]);
         let mut load = largest_load(mechanism, &joined.force, &a, size);
         if load <= LOAD_ROUNDING * largest_stop(mechanism, &v, size) {
             // At rest and with equal masses: without a load there is no reference for speed or
@@ -114,18 +115,15 @@ impl<'a> Instant<'a> {
             saddle.factor(|k| rows.row(k), &mass)?;
             let unit = unit_loads(mechanism, size);
             saddle.solve(&unit, &gamma, &mut a, &mut of_kept)?;
-            (force_dq, force_dv) = (&[], &[]);
             load = 1.0;
         }
         let mut lambda = vec![0.0; m];
         for (&i, l) in kept.iter().zip(of_kept) {
             lambda[i] = l;
         }
-        let mut derivatives = Derivatives::of(mechanism)?;
-        derivatives.differentiate(mechanism, &a, &lambda, &s);
-        let feels_velocities = (derivatives.gamma_dv.iter())
-            .chain(force_dv.iter().copied())
-            .any(|(.., value)| value != 0.0);
+        let mut derivatives = Derivatives::of_constraints(mechanism);
+        derivatives.differentiate_constraints(mechanism, &a, &lambda, &s);
+        let feels_velocities = derivatives.gamma_dv.iter().any(|(.., value)| value != 0.0);
         let holonomic = kept.partition_point(|&i| i < layout.m);
         let moved = |block: DataBlock| {
             let workshop = match block.unit {
@@ -138,8 +136,6 @@ impl<'a> Instant<'a> {
         Ok(Self {
             slopes: Slopes {
                 derivatives,
-                force_dq,
-                force_dv,
                 by_data: mechanism.data().gradients(&s, &lambda, &a, &v),
                 c: feels_velocities.then(|| Follow::new(&rows, kept.to_vec(), &units)),
                 phi_q: Follow::new(&rows, kept[..holonomic].to_vec(), &units),
@@ -147,6 +143,7 @@ impl<'a> Instant<'a> {
             blocks: mechanism.data().blocks(&s).into_iter().map(moved).collect(),
             work: Work::new(n, m, kept.len()),
             mechanism,
+            q: &joined.q,
             s,
             kept,
             size,
@@ -156,61 +153,44 @@ impl<'a> Instant<'a> {
         })
     }
 
-    pub(super) fn of(&mut self, id: ConstraintId) -> Result<Sensitivity, ChoiceError> {
-        let mechanism = self.mechanism;
-        let group = &mechanism.layout().groups[id.0];
-        let map = mechanism.reactions(&self.s).wrench_map(id);
-        // Its kept rows: their places among the kept ones, and their numbers in the joint.
-        let kept = self.kept.iter().enumerate();
-        let kept: Vec<(usize, usize)> = kept
-            .filter_map(|(k, &row)| Some((k, group.rows.own(row)?)))
-            .collect();
-        let n = mechanism.data().count();
-        let mut gradients = vec![0.0; kept.len() * n];
-        for (&(k, _), gradient) in kept.iter().zip(gradients.chunks_exact_mut(n.max(1))) {
-            self.gradient(k, gradient)?;
-        }
-        let mut squares = vec![0.0; self.blocks.len()];
-        let mut reaction = 0.0_f64;
-        let mut gradient = vec![0.0; n];
-        for component in group.components() {
-            // Torques are divided by the size of the mechanism to compare with forces.
-            let is_torque = mechanism.space().torques().contains(&component);
-            let unit = if is_torque { 1.0 / self.size } else { 1.0 };
-            let row = map.row(component);
-            let terms = row.iter().zip(&group.rows);
-            let force = terms.map(|(w, i)| w * self.lambda[i]).sum::<f64>();
-            reaction = reaction.hypot(unit * force);
-            gradient.fill(0.0);
-            for (&(_, own), of_row) in kept.iter().zip(gradients.chunks_exact(n.max(1))) {
-                let weight = unit * row[own];
-                for (sum, g) in gradient.iter_mut().zip(of_row) {
-                    *sum += weight * g;
-                }
-            }
-            for (sum, (block, _)) in squares.iter_mut().zip(&self.blocks) {
-                let [x, y, z] = block.part(&gradient);
-                *sum += x * x + y * y + z * z;
-            }
-        }
-        let changes = squares.iter().zip(&self.blocks);
+    /// The largest change of each number with one datum.
+    pub(super) fn changes(
+        &mut self,
+        numbers: &[ReactionNumber],
+    ) -> Result<Vec<Change>, ChoiceError> {
+        let held = Held {
+            mechanism: self.mechanism,
+            t: self.s.t,
+            q: self.q,
+            lambda: &self.lambda,
+            size: self.size,
+        };
+        let slopes = held.slopes(numbers, &self.blocks);
+        let mut gradient = vec![0.0; self.mechanism.data().count()];
+        let each = numbers.iter().zip(&slopes);
+        each.map(|(number, slopes)| {
+            self.gradient(number, slopes, &mut gradient)?;
+            Ok(self.change(number, &gradient))
+        })
+        .collect()
+    }
+
+    /// The largest change of a number with this gradient.
+    fn change(&self, number: &ReactionNumber, gradient: &[f64]) -> Change {
+        let changes = self.blocks.iter();
         let changes: Vec<f64> = changes
-            .map(|(sum, (_, moved))| sum.sqrt() * moved)
+            .map(|(block, moved)| block.change(gradient, *moved))
             .collect();
         let largest = changes.iter().copied().fold(0.0, f64::max);
-        let first = changes
-            .iter()
-            .position(|change| SAME_EFFECT * change >= largest);
+        let mut changed = changes.iter();
+        let first = changed.position(|change| SAME_EFFECT * change >= largest);
         let by = first.filter(|_| largest > 0.0).map(|k| &self.blocks[k]);
         // NaN if the equations are too nearly singular.
         let is_known = changes.iter().all(|change| change.is_finite());
-        let reference = reaction.max(self.load);
-        Ok(Sensitivity {
-            change: match (is_known, by) {
-                (false, _) => f64::NAN,
-                (true, None) => 0.0,
-                (true, Some(_)) => largest / reference,
-            },
+        Change {
+            largest: if is_known { largest } else { f64::NAN },
+            value: self.value(number, &self.lambda, number.joints()),
+            load: self.load * number.unit(self.mechanism, self.size),
             by: by.map(|(block, moved)| Datum {
                 joint: ConstraintId(block.group),
                 name: block.name,
@@ -218,14 +198,42 @@ impl<'a> Instant<'a> {
                 unit: block.unit,
                 is_number: block.numbers.len() == 1,
             }),
-        })
+        }
     }
 
-    /// The gradient of `−λ_k` by all numbers of the constraints, for one kept row.
-    fn gradient(&mut self, k: usize, out: &mut [f64]) -> Result<(), ChoiceError> {
+    /// The contributions of these joints to a number, for these multipliers.
+    fn value(
+        &self,
+        number: &ReactionNumber,
+        lambda: &[f64],
+        joints: impl IntoIterator<Item = usize>,
+    ) -> f64 {
+        let of_joint = |joint: usize| {
+            let (id, reactions) = (ConstraintId(joint), self.mechanism.reactions(&self.s));
+            number.of_joint(reactions, id, &reactions.reaction(id, lambda))
+        };
+        joints.into_iter().map(of_joint).sum()
+    }
+
+    /// The gradient of a number by all numbers of the constraints.
+    fn gradient(
+        &mut self,
+        number: &ReactionNumber,
+        held: &HeldSlopes,
+        out: &mut [f64],
+    ) -> Result<(), ChoiceError> {
+        self.work.of_kept.fill(0.0);
+        let mut unit = vec![0.0; self.lambda.len()];
+        for joint in number.joints() {
+            for row in &self.mechanism.layout().groups[joint].rows {
+                if let Ok(k) = self.kept.binary_search(&row) {
+                    unit[row] = 1.0;
+                    self.work.of_kept[k] = self.value(number, &unit, [joint]);
+                    unit[row] = 0.0;
+                }
+            }
+        }
         let w = &mut self.work;
-        w.of_kept.fill(0.0);
-        w.of_kept[k] = 1.0;
         self.saddle
             .solve(&w.zero, &w.of_kept, &mut w.y, &mut w.y_kept)?;
         for (&i, value) in self.kept.iter().zip(&w.y_kept) {
@@ -237,20 +245,54 @@ impl<'a> Instant<'a> {
         if let Some(c) = &slopes.c {
             w.by_pose.fill(0.0);
             add_transposed(d.gamma_dv.iter(), &w.y_lambda, 1.0, &mut w.by_pose);
-            add_transposed(slopes.force_dv.iter().copied(), &w.y, 1.0, &mut w.by_pose);
             c.multipliers(&mut w.by_pose, &mut w.w_v);
         }
         // Through the pose, which follows the data.
         w.by_pose.fill(0.0);
-        add_transposed(slopes.force_dq.iter().copied(), &w.y, 1.0, &mut w.by_pose);
+        for &(column, slope) in &held.by_pose {
+            w.by_pose[column] += slope;
+        }
         add_transposed(d.reaction_dq.iter(), &w.y, -1.0, &mut w.by_pose);
         add_transposed(d.residual_dq.iter(), &w.y_lambda, -1.0, &mut w.by_pose);
         add_transposed(d.velocity_dq.iter(), &w.w_v, -1.0, &mut w.by_pose);
         slopes.phi_q.multipliers(&mut w.by_pose, &mut w.w_q);
-        slopes
-            .by_data
-            .gradient(&w.y, [&w.y_lambda, &w.w_v, &w.w_q], out);
+        let by_rows = [&w.y_lambda[..], &w.w_v, &w.w_q];
+        slopes.by_data.gradient(&w.y, by_rows, out);
+        out.iter_mut().for_each(|slope| *slope = -*slope);
+        for &(place, slope) in &held.by_data {
+            out[place] += slope;
+        }
         Ok(())
+    }
+}
+
+/// The largest change of a number of reactions with one datum.
+#[derive(Clone, Debug)]
+pub(super) struct Change {
+    /// The change; NaN if the equations are too nearly singular.
+    pub(super) largest: f64,
+    /// The datum; `None` if nothing changes the number.
+    pub(super) by: Option<Datum>,
+    /// The number.
+    pub(super) value: f64,
+    /// The largest load in the unit of the number.
+    pub(super) load: f64,
+}
+
+impl Change {
+    /// The change of a sum of two numbers that depend on different data.
+    pub(super) fn and(self, other: Self) -> Self {
+        let (value, load) = (self.value + other.value, self.load.max(other.load));
+        let larger = if other.largest > self.largest || other.largest.is_nan() {
+            other
+        } else {
+            self
+        };
+        Self {
+            value,
+            load,
+            ..larger
+        }
     }
 }
 
@@ -300,19 +342,19 @@ fn add_transposed(
     }
 }
 
-/// The largest applied or inertial force on a body (N), torques divided by the size.
+/// The largest applied or inertial force on a body (N), torques divided by the size. Forces and
+/// torques count as vectors: single components depend on the axes.
 fn largest_load(mechanism: &Mechanism, force: &[f64], a: &[f64], size: f64) -> f64 {
-    let inertial = mechanism.mass().iter().zip(a).map(|(m, a)| (m * a).abs());
-    let applied = force.iter().map(|f| f.abs());
-    let kinds = mechanism.layout().column_kinds();
-    let larger = inertial.zip(applied).zip(&kinds).map(|((i, f), kind)| {
-        let unit = match kind {
-            ColumnKind::Translation => 1.0,
-            ColumnKind::Rotation => 1.0 / size,
-        };
-        i.max(f) * unit
-    });
-    larger.fold(0.0, f64::max)
+    let inertial: Vec<f64> = mechanism.mass().iter().zip(a).map(|(m, a)| m * a).collect();
+    let space = mechanism.space();
+    let of_body = |body: usize| {
+        let (columns, turned) = (space.columns_of(body), space.rotations_of(body));
+        let moved = columns.start..turned.start;
+        let of = |load: &[f64]| norm(&load[moved.clone()]).max(norm(&load[turned.clone()]) / size);
+        of(force).max(of(&inertial))
+    };
+    let bodies = 0..mechanism.bodies().len();
+    bodies.map(of_body).fold(0.0, f64::max)
 }
 
 /// The length to which manufacturing accuracy refers for the bodies of a joint (m): several times

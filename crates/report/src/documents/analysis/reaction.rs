@@ -1,11 +1,11 @@
 //! The verdict on a joint or drive, with all requested results.
 
-use model::{ConstraintId, Frame, SpaceKind};
+use model::{ConstraintId, Frame, Layout, SpaceKind};
 use rank::Settled;
 use serde::Serialize;
 use solvability::{
     ComponentVerdict, Explanation, FrameVerdict, FreeDirection, GroupVerdict, ReactionVerdict,
-    Value,
+    Sensitivities, Sensitivity, Value,
 };
 
 use super::ValueDocument;
@@ -26,19 +26,23 @@ pub struct ReactionDocument {
     #[serde(flatten)]
     pub wrench: VerdictDocument,
     /// How strongly it depends on the data; [`super::AnalysisDocument::add_sensitivities`] fills
-    /// it.
+    /// it, and those of components and directions.
     #[serde(flatten)]
     pub data: SensitivityDocument,
     /// Verdict of all its multipliers together.
     pub multipliers: &'static str,
     /// Verdict of the multiplier of each row.
     pub row_verdicts: Vec<RowDocument>,
-    /// Verdicts of the components that are not identically zero.
+    /// Verdicts of the components that are not identically zero, and of the `load` of a coupling.
     pub components: Vec<ComponentDocument>,
     /// Basis of the unique directions, without those along which the reaction is zero under any
     /// load: in the plane in these components, in space of six numbers, a force and a moment about
     /// the place. `null` if their number is undecided.
     pub unique_directions: Option<Vec<Vec<f64>>>,
+    /// How strongly the reaction along each of these directions depends on the data; absent if not
+    /// known.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub direction_sensitivities: Vec<SensitivityDocument>,
     /// The largest part, in the unit of margins, that had to count as zero within the stated
     /// tolerance for these directions; absent if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -85,11 +89,14 @@ pub struct RowDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ComponentDocument {
-    /// `Fx`, `Fy` or `T`; in space `Fx` to `Tz`.
+    /// `Fx`, `Fy` or `T`; in space `Fx` to `Tz`; or the named component of a definition.
     pub name: &'static str,
     /// Its verdict.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
+    /// How strongly it depends on the data, if it is unique.
+    #[serde(flatten)]
+    pub data: SensitivityDocument,
 }
 
 /// Load on a joint in a self-stress, scaled for drawing: the largest force of the self-stress is 1
@@ -143,6 +150,9 @@ pub struct GroupDocument {
     /// Its verdict.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
+    /// How strongly it depends on the data: the largest of its unique numbers or members.
+    #[serde(flatten)]
+    pub data: SensitivityDocument,
     /// Verdicts on force and torque of a sum of wrenches.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub components: Vec<ComponentDocument>,
@@ -158,11 +168,31 @@ impl ReactionDocument {
     /// The components to which the numbers of its unique directions belong.
     #[must_use]
     pub fn direction_components(&self) -> Vec<&'static str> {
-        let own: Vec<&'static str> = self.components.iter().map(|c| c.name).collect();
+        let own = self.components.iter().map(|c| c.name);
         let numbers = self.unique_directions.iter().flatten().map(Vec::len).next();
         match numbers {
-            Some(n) if n != own.len() => SpaceKind::Space3.components().to_vec(),
-            _ => own,
+            Some(n) if n == SpaceKind::Space3.n_v() => SpaceKind::Space3.components().to_vec(),
+            numbers => own.take(numbers.unwrap_or(usize::MAX)).collect(),
+        }
+    }
+
+    /// The names of what is fragile: of the reaction, if all of it is, or else of components.
+    #[must_use]
+    pub fn fragile_names(&self) -> Vec<String> {
+        if !self.data.fragile {
+            return Vec::new();
+        }
+        let components = self.components.iter().filter(|c| c.data.fragile);
+        let named: Vec<String> = components
+            .map(|c| format!("{}.{}", self.name, c.name))
+            .collect();
+        let is_all = |c: &ComponentDocument| c.data.fragile || c.data.sensitivity == Some(0.0);
+        let is_whole = self.wrench.verdict == "unique" && self.components.iter().all(is_all);
+        // Without components the named one of the definition is fragile.
+        if is_whole || named.is_empty() {
+            vec![self.name.clone()]
+        } else {
+            named
         }
     }
 
@@ -176,8 +206,33 @@ impl ReactionDocument {
         } else {
             ""
         };
-        let fragile = if self.data.fragile { ", FRAGILE" } else { "" };
+        let fragile = match (self.data.fragile, self.wrench.verdict) {
+            (false, _) => "",
+            (true, "unique") => ", FRAGILE",
+            (true, _) => ", unique parts FRAGILE",
+        };
         format!("{verdict}{within}{fragile}")
+    }
+
+    /// Adds the sensitivities of its components and directions.
+    pub(super) fn add_sensitivities(
+        &mut self,
+        all: &Sensitivities,
+        id: ConstraintId,
+        layout: &Layout,
+    ) {
+        self.data = SensitivityDocument::of(all, id, layout);
+        for c in &mut self.components {
+            let name = format!("{}.{}", self.name, c.name);
+            let found = all.component(id, c.name);
+            c.data = SensitivityDocument::of_number(found, &name, layout);
+        }
+        let name = format!("a direction of {}", self.name);
+        let directions = all.each.get(id.0).map(|own| &own.directions);
+        let directions = directions.into_iter().flatten();
+        self.direction_sensitivities = directions
+            .map(|found| SensitivityDocument::of_number(found.as_ref(), &name, layout))
+            .collect();
     }
 
     /// Adds the explanations of all reactions, in the order of joints and drives.
@@ -234,6 +289,7 @@ impl From<&ReactionVerdict> for ReactionDocument {
                 let written = directions.iter().map(|direction| written(r, direction));
                 written.collect()
             }),
+            direction_sensitivities: Vec::new(),
             unique_directions_within_tolerance: (r.directions_left_out > 0.0)
                 .then_some(r.directions_left_out),
             settled: None,
@@ -260,11 +316,27 @@ fn written(r: &ReactionVerdict, direction: &[f64]) -> Vec<f64> {
     all
 }
 
+impl ComponentDocument {
+    /// Adds the sensitivities of unique components, given with the names of their reactions.
+    pub(super) fn add_sensitivities<'d>(
+        all: impl Iterator<Item = (&'d String, &'d mut Self)>,
+        found: Vec<Option<Sensitivity>>,
+        layout: &Layout,
+    ) {
+        let unique = all.filter(|(_, c)| c.verdict.verdict == "unique");
+        for ((reaction, c), found) in unique.zip(found) {
+            let name = format!("{reaction}.{}", c.name);
+            c.data = SensitivityDocument::of_number(found.as_ref(), &name, layout);
+        }
+    }
+}
+
 impl From<&ComponentVerdict> for ComponentDocument {
     fn from(component: &ComponentVerdict) -> Self {
         Self {
             name: component.name,
             verdict: (&component.judgement).into(),
+            data: SensitivityDocument::default(),
         }
     }
 }
@@ -296,10 +368,31 @@ impl GroupDocument {
         Self {
             name: name.to_owned(),
             verdict: (&verdict.judgement).into(),
+            data: SensitivityDocument::default(),
             components: verdict.components.iter().map(Into::into).collect(),
             about: verdict.about.map(|point| components(verdict.space, point)),
             values: Vec::new(),
         }
+    }
+
+    /// Adds how strongly its unique numbers depend on the data: one sensitivity for each, in their
+    /// order.
+    pub fn add_sensitivities(&mut self, found: Vec<Option<Sensitivity>>, layout: &Layout) {
+        let name = &self.name;
+        if self.components.is_empty() {
+            let sums = found
+                .iter()
+                .map(|found| SensitivityDocument::of_number(found.as_ref(), name, layout));
+            self.data = sums.fold(SensitivityDocument::default(), |a, b| a.or_larger(&b));
+            return;
+        }
+        let all = self.components.iter_mut().map(|c| (name, c));
+        ComponentDocument::add_sensitivities(all, found, layout);
+        let components = self.components.iter().map(|c| &c.data);
+        self.data = components.fold(
+            SensitivityDocument::default(),
+            SensitivityDocument::or_larger,
+        );
     }
 
     /// Adds the unique numbers of the group.

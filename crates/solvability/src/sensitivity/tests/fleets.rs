@@ -2,7 +2,7 @@
 //! that no joint connects to it.
 
 use joints::{PointOnLine, Revolute, RevoluteAngleDrive, SpringDamper};
-use model::{Body, BodyRef, Description, Function, Mechanism};
+use model::{Body, BodyRef, Description, Function, Mechanism, System};
 
 use super::super::*;
 

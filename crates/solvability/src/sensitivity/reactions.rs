@@ -1,0 +1,296 @@
+//! Sensitivities of the reactions of an analysed configuration: of every unique component and every
+//! unique direction.
+
+use model::{ConstraintId, Layout, Mechanism, System};
+
+use super::by_sets::changes;
+use super::{Datum, ReactionNumber, Sensitivity, told};
+use crate::analysis::Analysis;
+use crate::choices::ChoiceError;
+use crate::groups::check;
+use crate::judged::ReactionVerdict;
+use crate::words;
+
+/// Sensitivities of the numbers of one reaction that are unique.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReactionSensitivities {
+    /// Those of components by their names, as in [`crate::ComponentVerdict`]; also that of the
+    /// named component of the definition, such as `N` of a knife edge or `drive`.
+    pub components: Vec<(&'static str, Sensitivity)>,
+    /// Those of [`ReactionVerdict::live_directions`]; `None` for one that is not known.
+    pub directions: Vec<Option<Sensitivity>>,
+    /// Whether the reaction is unique as a whole.
+    pub is_whole: bool,
+}
+
+impl ReactionSensitivities {
+    /// The sensitivity of a component that is unique, by its name.
+    #[must_use]
+    pub fn component(&self, name: &str) -> Option<&Sensitivity> {
+        let mut components = self.components.iter();
+        components.find(|(known, _)| *known == name).map(|(_, s)| s)
+    }
+
+    /// The largest of the components.
+    #[must_use]
+    pub fn largest(&self) -> Option<&Sensitivity> {
+        let components = self.components.iter().map(|(_, s)| s);
+        components.reduce(|a, b| if b.change > a.change { b } else { a })
+    }
+
+    /// Whether all components are fragile that change at all.
+    fn is_all_fragile(&self) -> bool {
+        let mut components = self.components.iter();
+        components.all(|(_, s)| s.is_fragile() || s.by.is_none())
+    }
+}
+
+/// Sensitivities of the reactions of a mechanism of any size.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sensitivities {
+    /// Those of joints and drives in the order of their rows. They are empty for a reaction without
+    /// a unique component, and where they cannot be computed.
+    pub each: Vec<ReactionSensitivities>,
+    /// Sentences on unique reactions whose sensitivity cannot be computed, with the reason.
+    pub left_out: Vec<String>,
+}
+
+impl Sensitivities {
+    /// Sensitivities that are not known, for this number of joints and drives; the sentence is the
+    /// reason.
+    #[must_use]
+    pub fn unknown(reactions: usize, reason: Option<String>) -> Self {
+        Self {
+            each: vec![ReactionSensitivities::default(); reactions],
+            left_out: reason.into_iter().collect(),
+        }
+    }
+
+    /// The sensitivity of a component of a reaction: one of the components of the space, or the
+    /// named component of the definition. `None` if it is not unique, identically zero or not
+    /// known.
+    #[must_use]
+    pub fn component(&self, id: ConstraintId, name: &str) -> Option<&Sensitivity> {
+        self.each.get(id.0)?.component(name)
+    }
+
+    /// The largest sensitivity of the unique components of a reaction. `None` if it has none.
+    #[must_use]
+    pub fn reaction(&self, id: ConstraintId) -> Option<&Sensitivity> {
+        self.each.get(id.0)?.largest()
+    }
+
+    /// The reactions with a fragile component.
+    pub fn fragile(&self) -> impl Iterator<Item = (ConstraintId, &Sensitivity)> {
+        let each = self.each.iter().enumerate();
+        let known = each.filter_map(|(k, all)| Some((ConstraintId(k), all.largest()?)));
+        known.filter(|(_, s)| s.is_fragile())
+    }
+
+    /// Sentences on what is fragile: one sentence for reactions and components whose largest change
+    /// comes from the same point. The name of a reaction without a component stands for all of
+    /// them.
+    #[must_use]
+    pub fn sentences(&self, layout: &Layout) -> Vec<String> {
+        let fragile = self.fragile().map(|(id, _)| id);
+        sentences(
+            fragile.flat_map(|id| self.fragile_names(id, layout)),
+            layout,
+        )
+    }
+
+    /// The same of one joint or drive.
+    #[must_use]
+    pub fn sentences_of(&self, id: ConstraintId, layout: &Layout) -> Vec<String> {
+        sentences(self.fragile_names(id, layout), layout)
+    }
+
+    /// What is fragile of a reaction, with names for sentences: the whole, or else components.
+    fn fragile_names(&self, id: ConstraintId, layout: &Layout) -> Vec<(String, Sensitivity)> {
+        let Some(all) = self.each.get(id.0) else {
+            return Vec::new();
+        };
+        let Some(largest) = all.largest().filter(|s| s.is_fragile()) else {
+            return Vec::new();
+        };
+        let name = &layout.groups[id.0].name;
+        let components = all.components.iter().filter(|(_, s)| s.is_fragile());
+        let of_components =
+            components.map(|(component, s)| (format!("`{name}.{component}`"), s.clone()));
+        let of_components: Vec<_> = of_components.collect();
+        if all.is_whole && all.is_all_fragile() {
+            vec![(format!("`{name}`"), largest.clone())]
+        } else {
+            of_components
+        }
+    }
+}
+
+/// One sentence for all names whose largest change comes from the same datum.
+fn sentences(
+    fragile: impl IntoIterator<Item = (String, Sensitivity)>,
+    layout: &Layout,
+) -> Vec<String> {
+    let mut groups: Vec<(Option<Datum>, f64, Vec<String>)> = Vec::new();
+    for (name, Sensitivity { change, by }) in fragile {
+        match groups.iter_mut().find(|(known, ..)| *known == by) {
+            Some((_, largest, names)) => {
+                *largest = largest.max(change);
+                names.push(name);
+            }
+            None => groups.push((by, change, vec![name])),
+        }
+    }
+    let sentence = |(by, change, names): (Option<Datum>, f64, Vec<String>)| {
+        let condition = by.map(|by| by.condition(layout)).unwrap_or_default();
+        let are = if names.len() == 1 { "is" } else { "are" };
+        let change = told(change, names.len());
+        format!(
+            "{} {are} unique but {change} if {condition}",
+            words::list(&names)
+        )
+    };
+    groups.into_iter().map(sentence).collect()
+}
+
+/// Which number of a reaction is computed.
+enum Asked {
+    Component(&'static str),
+    /// The live direction at this place of the list.
+    Direction(usize),
+}
+
+impl Analysis {
+    /// Computes how strongly each unique component and direction depends on the data, at the
+    /// configuration of the analysis and velocities v that satisfy the constraints. Each set of
+    /// bodies connected by joints and drives is examined separately, with its own size and loads,
+    /// on the `rayon` thread pool of the caller. In sets with too many rows for dense matrices, each
+    /// part on common cycles is examined with its own data and size, under the loads from the rest
+    /// of the set. Parts that are themselves too large, or whose rank is undecided, are left out.
+    ///
+    /// # Errors
+    /// [`ChoiceError::Request`]: q or v do not fit the mechanism.
+    pub fn sensitivities(
+        &self,
+        mechanism: &Mechanism,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<Sensitivities, ChoiceError> {
+        let (mut asked, mut numbers) = (Vec::new(), Vec::new());
+        for reaction in &self.reactions {
+            for (what, number) in numbers_of(mechanism, reaction)? {
+                asked.push((reaction.id, what));
+                numbers.push(number);
+            }
+        }
+        let mut all = Sensitivities::unknown(self.reactions.len(), None);
+        let (found, left_out) = self.changes_of(mechanism, q, v, &numbers)?;
+        all.left_out = left_out;
+        for ((id, what), found) in asked.into_iter().zip(found) {
+            let own = &mut all.each[id.0];
+            match what {
+                Asked::Component(name) => own.components.extend(found.map(|s| (name, s))),
+                Asked::Direction(k) => {
+                    own.directions.resize(k + 1, None);
+                    own.directions[k] = found;
+                }
+            }
+        }
+        for reaction in &self.reactions {
+            let own = &mut all.each[reaction.id.0];
+            own.take_aligned(reaction);
+            own.is_whole = reaction.wrench.verdict.is_unique();
+        }
+        Ok(all)
+    }
+
+    /// The sensitivity of each of these numbers, which must be unique; `None` if it is not known.
+    ///
+    /// # Errors
+    /// As [`Self::sensitivities`].
+    pub fn sensitivities_of(
+        &self,
+        mechanism: &Mechanism,
+        q: &[f64],
+        v: &[f64],
+        numbers: &[ReactionNumber],
+    ) -> Result<Vec<Option<Sensitivity>>, ChoiceError> {
+        Ok(self.changes_of(mechanism, q, v, numbers)?.0)
+    }
+
+    fn changes_of(
+        &self,
+        mechanism: &Mechanism,
+        q: &[f64],
+        v: &[f64],
+        numbers: &[ReactionNumber],
+    ) -> Result<(Vec<Option<Sensitivity>>, Vec<String>), ChoiceError> {
+        let layout = mechanism.layout();
+        if !self.decision.is_decided() || numbers.is_empty() {
+            return Ok((vec![None; numbers.len()], Vec::new()));
+        }
+        check("q", q, layout.n_q)?;
+        check("v", v, layout.n_v)?;
+        let found = changes(mechanism, (self.time, q, v), &self.decision.kept, numbers);
+        let each = found.each.into_iter();
+        let each = each.map(|change| Sensitivity::of(change?));
+        Ok((each.collect(), found.left_out))
+    }
+}
+
+impl ReactionSensitivities {
+    /// Adds the directions along one component, which have its sensitivity.
+    fn take_aligned(&mut self, reaction: &ReactionVerdict) {
+        let directions = reaction.live_directions.as_deref().unwrap_or_default();
+        if self.components.is_empty() && self.directions.is_empty() {
+            return;
+        }
+        self.directions.resize(directions.len(), None);
+        for (k, direction) in directions.iter().enumerate() {
+            if let Some(name) = aligned(reaction, direction) {
+                self.directions[k] = self.component(name).cloned();
+            }
+        }
+    }
+}
+
+/// The component along which a direction of a reaction is, if it is along one.
+fn aligned(reaction: &ReactionVerdict, direction: &[f64]) -> Option<&'static str> {
+    let mut terms = direction.iter().zip(&reaction.components);
+    let (_, component) = terms.find(|(x, _)| **x != 0.0)?;
+    let is_alone = terms.all(|(x, _)| *x == 0.0);
+    is_alone.then_some(component.name)
+}
+
+/// The unique numbers of a reaction: its components, the named component of its definition, and
+/// directions that are along none of the components.
+fn numbers_of(
+    mechanism: &Mechanism,
+    reaction: &ReactionVerdict,
+) -> Result<Vec<(Asked, ReactionNumber)>, ChoiceError> {
+    let id = reaction.id;
+    let unique = |c: &&crate::judged::ComponentVerdict| c.judgement.verdict.is_unique();
+    let mut names: Vec<&'static str> = reaction
+        .components
+        .iter()
+        .filter(unique)
+        .map(|c| c.name)
+        .collect();
+    let named = mechanism.layout().groups[id.0].spec.component;
+    names.extend(named.filter(|name| !names.contains(name) && reaction.determines(name)));
+    let mut numbers = Vec::new();
+    for name in names {
+        let number = ReactionNumber::component(mechanism, id, name)?;
+        numbers.push((Asked::Component(name), number));
+    }
+    for (k, direction) in reaction.live_directions.iter().flatten().enumerate() {
+        if aligned(reaction, direction).is_some() {
+            continue;
+        }
+        let names = reaction.components.iter().map(|c| c.name);
+        let terms = names.zip(direction.iter().copied());
+        let number = ReactionNumber::direction(mechanism, id, terms)?;
+        numbers.push((Asked::Direction(k), number));
+    }
+    Ok(numbers)
+}
