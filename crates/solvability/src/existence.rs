@@ -9,6 +9,7 @@
 
 mod demands;
 mod drives;
+mod limit;
 
 use crate::limits::REST;
 use crate::pose::velocity_units;
@@ -22,6 +23,7 @@ use crate::state::{self, StateError};
 use crate::words;
 pub use demands::Demand;
 pub use drives::{contradicting_drives, contradicting_drives_along};
+pub use limit::{DriveLimit, LimitedDrive, drive_limit};
 
 /// The level at which rows are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -275,16 +277,25 @@ pub fn contradictions(
             share: 0.0,
         },
     ];
-    // Rows that are redundant within a tolerance may part: then what they miss decides.
+    // Rows that may miss may part: then what they miss decides.
     let compared = levels
         .iter()
-        .filter(|c| c.level != ConstraintLevel::Acceleration || !mechanism.has_tolerances());
+        .filter(|c| c.level != ConstraintLevel::Acceleration || !may_miss(mechanism));
     let mut found: Vec<Contradiction> = compared
         .flat_map(|level| level.contradictions(mechanism, t))
         .collect();
     let excess = |c: &Contradiction| c.size / c.tolerance;
     found.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
     Ok(found)
+}
+
+/// Whether redundant rows may ask for other accelerations than the rows that imply them, and miss
+/// by what follows: where a tolerance is stated, rows may be redundant within it only. A motion on
+/// the kept rows then exists, and so do its reactions, until a row misses by more than data within
+/// the tolerance explain.
+#[must_use]
+pub fn may_miss(mechanism: &Mechanism) -> bool {
+    mechanism.has_tolerances()
 }
 
 /// Values of all rows at one level, and the size of their terms.

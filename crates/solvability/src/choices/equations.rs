@@ -9,6 +9,7 @@ use model::{ColumnKind, Mechanism, Scratch, System};
 use rank::RankStatus;
 
 use super::ChoiceError;
+use crate::existence::may_miss;
 use crate::groups::{RequestError, check};
 use crate::parts::Extent;
 use crate::sparse::{blocks, rows_of};
@@ -26,6 +27,7 @@ use crate::sparse::{blocks, rows_of};
 ///     c: Matrix::from_rows(&[[1.0], [1.0]]),
 ///     gamma: vec![0.0, 0.0],
 ///     gamma_terms: vec![0.0, 0.0],
+///     may_miss: false,
 /// };
 /// let lambda = equations.multipliers(&decide(&equations.c, 0.0)?)?;
 /// assert_eq!(lambda.iter().sum::<f64>(), 3.0);
@@ -44,6 +46,8 @@ pub struct Equations {
     /// Size of the terms that are added up in each entry of Γ, m + h: an entry that is small
     /// relative to it is rounding. Zeros if Γ is exact.
     pub gamma_terms: Vec<f64>,
+    /// Whether dropped rows may ask for other accelerations than the kept ones: see [`may_miss`].
+    pub may_miss: bool,
 }
 
 /// Accelerations, and one solution for the multipliers.
@@ -69,6 +73,7 @@ impl Equations {
             force: s.force,
             gamma: s.gamma,
             gamma_terms,
+            may_miss: may_miss(mechanism),
         })
     }
 
@@ -117,7 +122,7 @@ impl Equations {
     /// - [`ChoiceError::Undecided`]: the rank is undecided, so the kept rows are not known.
     /// - [`ChoiceError::Saddle`]: the kept rows and the masses do not determine the accelerations.
     /// - [`ChoiceError::Contradiction`]: the dropped rows require other accelerations, so there is
-    ///   no solution.
+    ///   no solution; not if they [may](Self::may_miss).
     /// - [`ChoiceError::Request`]: sizes do not fit.
     pub fn multipliers(&self, rows: impl Into<RowDecision>) -> Result<Vec<f64>, ChoiceError> {
         self.solution(rows).map(|solution| solution.multipliers)
@@ -143,7 +148,9 @@ impl Equations {
         let units = linalg::equilibrate(&self.c).cols;
         let units: Vec<f64> = units.into_iter().map(|e| f64::from(e).exp2()).collect();
         let row = |i: usize| self.c.row(i).iter().copied().enumerate();
-        agree(&rows, row, &a, &units, [&self.gamma, &self.gamma_terms])?;
+        if !self.may_miss {
+            agree(&rows, row, &a, &units, [&self.gamma, &self.gamma_terms])?;
+        }
         Ok(Solution {
             acceleration: a,
             multipliers: on_all_rows(kept, of_kept, m),
@@ -242,7 +249,9 @@ fn sparse_solution(
     saddle.solve(&c, &scaled(force), &gamma, &mut x, &mut of_kept)?;
     let a = scaled(&x);
     let row = |i: usize| layout.row(s, i);
-    agree(rows, row, &a, &units, [&s.gamma, gamma_terms])?;
+    if !may_miss(mechanism) {
+        agree(rows, row, &a, &units, [&s.gamma, gamma_terms])?;
+    }
     Ok(Solution {
         acceleration: a,
         multipliers: on_all_rows(kept, of_kept, layout.rows()),

@@ -1,10 +1,9 @@
 //! A mechanism at a configuration whose rank has been decided. It gives the verdicts on the numbers
 //! of its reactions.
 
-use crate::pose::{dimensionless, evaluated, uncertainty};
+use crate::pose::{dimensionless, evaluated};
 use std::borrow::Cow;
 
-use linalg::Matrix;
 use model::start::scene_size;
 use model::{Layout, Mechanism, System};
 use rank::RankDecision;
@@ -18,8 +17,6 @@ use crate::verdict::Judgement;
 /// A mechanism at time t and coordinates q, with the rank of C there.
 pub struct Configuration<'a> {
     pub(crate) reactions: ReactionForms<'a>,
-    /// Accuracy of the entries of the dimensionless C.
-    pub(crate) uncertainty: Matrix,
     pub(crate) solvability: Solvability,
 }
 
@@ -74,7 +71,6 @@ impl<'a> Configuration<'a> {
         let size = scene_size(&mechanism, q);
         let c = dimensionless(&mechanism, &s, size);
         Ok(Self {
-            uncertainty: uncertainty(&mechanism, &s, size),
             reactions: ReactionForms { mechanism, s, size },
             solvability: Solvability::from_decision(&c, decision.clone()),
         })

@@ -135,6 +135,7 @@ impl Rewriting {
             }),
             gamma: of_rows(&old.gamma),
             gamma_terms: of_rows(&old.gamma_terms),
+            may_miss: old.may_miss,
         }
     }
 
