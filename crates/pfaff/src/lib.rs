@@ -40,6 +40,7 @@ mod spread;
 pub mod study;
 pub mod sweep;
 pub mod tolerance;
+mod within;
 pub mod work_precision;
 
 pub use dynamics;

@@ -6,14 +6,15 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use dynamics::equilibrium::{Equilibrium, EquilibriumOptions, equilibrium};
+use dynamics::equilibrium::{Equilibrium, EquilibriumError, EquilibriumOptions, equilibrium};
 use dynamics::linearise::{Linearisation, LineariseOptions, linearise};
 use dynamics::plan::{Reactions, Rows};
 use dynamics::{
     Failure, Method, MotionError, MotionFault, MotionOptions, Plan, Prepared, Sample,
     Stabilisation, Stop, Summary, Wanted, simulate_until,
 };
-use model::{AnyDescription, FramePose, Known, Reaction, Registry, StartPose, System};
+use model::start::assemble;
+use model::{AnyDescription, FramePose, Known, Reaction, Registry, StartError, StartPose, System};
 use report::documents::{DataDocument, MomentDocument, MotionDocument};
 use report::{
     AnalysisDocument, Ending, Origin, OutputDirectory, ReactionTable, Run, RunDocument, Selection,
@@ -27,6 +28,7 @@ use crate::configuration::{AskedRows, ConfigurationAnalysis};
 use crate::error::StudyError;
 use crate::report_builder::ReportBuilder;
 use crate::spread::Path;
+use crate::within::missed;
 
 /// Largest number of rows of a mechanism for which an animation has additional rows between those
 /// of the tables.
@@ -34,6 +36,10 @@ const PICTURED_ROWS: usize = 600;
 
 /// Largest number of rows of a mechanism for which it is tested whether a motion begins.
 const BEGUN_ROWS: usize = 2000;
+
+/// Where a search has ended on the constraints, a start that misses by less than this share of the
+/// size is not too far from an assembled one: the constraints are dependent there.
+const REACHED: f64 = 1e-6;
 
 /// Searches for a place of rest that follow one from a singular start, at most.
 const SEARCHES: usize = 3;
@@ -305,7 +311,21 @@ impl Study {
                 }
             }
         }
-        AssembledScene::build(scene)?.prepare(&Overrides::default())
+        let assembled = AssembledScene::build(scene)?;
+        let (start, mut again) = (assembled.scene.start.clone(), assembled.mechanism.clone());
+        let size = self.prepared.assembly.size;
+        assembled.prepare(&Overrides::default()).map_err(|error| {
+            // The search has reached these coordinates on the constraints.
+            let left = match assemble(&mut again, &start) {
+                Err(StartError::NoAssembly { misfits, .. }) => missed(&misfits, size),
+                _ => f64::INFINITY,
+            };
+            if left <= REACHED * size {
+                EquilibriumError::Singular { left }.into()
+            } else {
+                error
+            }
+        })
     }
 
     /// The poses of all bodies at the coordinates q.

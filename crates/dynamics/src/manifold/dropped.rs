@@ -100,6 +100,26 @@ pub(super) fn check_positions(equations: &mut KeptEquations<'_>) -> Result<(), M
     level.check(rows, at, &mut equations.misfits)
 }
 
+/// The drives and joints with functions of time in the dependency of the dropped row i.
+fn drives_among(
+    rows: &mut KeptRows,
+    at: &Evaluation<'_>,
+    i: usize,
+) -> Result<Vec<String>, MotionFault> {
+    let layout = at.mechanism.layout();
+    let mut z = vec![0.0; layout.rows()];
+    rows.dependency(at, i, &mut z)?;
+    let share = dropped_misfit(rows);
+    let mut names: Vec<String> = Vec::new();
+    for (k, _) in z.iter().enumerate().filter(|(_, z)| z.abs() > share) {
+        let group = &layout.groups[layout.owners[k].0];
+        if group.spec.rheonomic && !names.contains(&group.name) {
+            names.push(group.name.clone());
+        }
+    }
+    Ok(names)
+}
+
 /// Allowed residual of rows that depend on these, as a fraction of their terms: rounding of the
 /// kept rows is multiplied by the inverse of the pivots, so it is larger near a singular
 /// configuration.
@@ -200,6 +220,7 @@ where
                     level: self.name(),
                     residual,
                     tolerance,
+                    drives: drives_among(rows, at, i)?,
                 });
             }
         }

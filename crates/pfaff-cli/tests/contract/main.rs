@@ -5,6 +5,7 @@ mod advice;
 mod analyze;
 mod bad_input;
 mod book;
+mod causes;
 mod cold_start;
 mod console;
 mod diff;
