@@ -167,8 +167,7 @@ fn a_scene_in_other_frames_says_the_same_motion() {
     let (plain, shifted) = (moved(&AT_THE_CENTRES), moved(&SHIFTED));
     let verdicts = |m: &MotionDocument| -> Vec<(String, &'static str)> {
         let all = m.summary.reactions.0.iter();
-        all.map(|(name, r)| (name.clone(), r.verdict()))
-            .collect()
+        all.map(|(name, r)| (name.clone(), r.verdict())).collect()
     };
     let known = verdicts(&plain);
     assert_eq!(known, verdicts(&shifted));

@@ -190,3 +190,44 @@ joint = [
         assert_eq!((found.redundancy, found.points.len()), (2, 4), "{scene}");
     }
 }
+
+/// A platform on four equal parallel legs moves on a sphere without turning, and the legs stay
+/// redundant. Second order blocks the turn about their direction. Legs that cross are another
+/// branch of the same joints, on which all four are independent.
+#[test]
+fn legs_that_stay_parallel_are_not_compared_with_those_that_do_not() {
+    let legs = |feet: &[[f64; 3]], lean: [f64; 3]| {
+        let mut scene = String::from(
+            r#"
+scene = { name = "legs", space = "spatial" }
+body = [{ name = "platform", mass = 1.0, inertia = [1.0, 1.0, 1.0] }]
+joint = [
+"#,
+        );
+        for (k, foot) in feet.iter().enumerate() {
+            let top: Vec<f64> = foot.iter().zip(lean).map(|(x, l)| x + l).collect();
+            scene += &format!(
+                "{{ name = \"leg {k}\", type = \"distance\", bodies = [\"ground\", \"platform\"], at = [{foot:?}, {top:?}] }},\n"
+            );
+        }
+        scene + "]\n"
+    };
+    let feet = [
+        [1.0, 0.0, 0.0],
+        [-0.6, 0.8, 0.0],
+        [-0.6, -0.8, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.3, -0.2, 0.0],
+    ];
+    for lean in [[1.0, 0.5, 2.0], [0.0, 0.0, 2.0], [0.3, -0.4, 1.0]] {
+        for count in [4, 5] {
+            let scene = legs(&feet[..count], lean);
+            let found = elsewhere(&scene).unwrap_or_else(|| panic!("{scene}"));
+            assert_eq!(found.redundancy, count - 3, "{lean:?} {count}: {found:?}");
+            // The orientation of the start is that of the ground.
+            for point in &found.points {
+                assert!(point.q[4..].iter().all(|x| x.abs() < 1e-9), "{found:?}");
+            }
+        }
+    }
+}

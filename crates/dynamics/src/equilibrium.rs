@@ -24,6 +24,7 @@ use crate::limits::{
 use crate::prepare::Prepared;
 use balance::{Balance, Statics};
 use linalg::kernels::{dot, norm};
+use model::StartError;
 use stiffness::{Stiffness, Way};
 
 pub use error::{EquilibriumError, Pushed};
@@ -133,7 +134,7 @@ impl RestStability {
 /// # Errors
 /// - [`EquilibriumError::Prescribed`]: a drive or a joint prescribes a velocity.
 /// - [`EquilibriumError::Pushed`]: a free motion is pushed, however far it goes.
-/// - [`EquilibriumError::NotFound`]: the search did not end.
+/// - [`EquilibriumError::NotFound`], [`EquilibriumError::Blocked`]: the search did not end.
 /// - [`EquilibriumError::NoDerivatives`]: a force calls a function.
 /// - [`EquilibriumError::Start`], [`EquilibriumError::NotFinite`]: a configuration on the way
 ///   cannot be reached, or a force has no value there.
@@ -243,13 +244,25 @@ impl Search<'_> {
     }
 
     fn not_found(&mut self) -> EquilibriumError {
-        let size = norm(&self.at.free);
-        let along: Vec<f64> = self.at.free.iter().map(|f| f / size).collect();
         EquilibriumError::NotFound {
             steps: self.steps,
-            left: size / self.at.scale,
-            pushed: words::pushed(&mut self.statics, &self.at, &along),
+            left: norm(&self.at.free) / self.at.scale,
+            pushed: self.pushed(),
         }
+    }
+
+    fn blocked(&mut self) -> EquilibriumError {
+        EquilibriumError::Blocked {
+            steps: self.steps,
+            pushed: self.pushed(),
+        }
+    }
+
+    /// What is pushed where the search is.
+    fn pushed(&mut self) -> Vec<Pushed> {
+        let size = norm(&self.at.free);
+        let along: Vec<f64> = self.at.free.iter().map(|f| f / size).collect();
+        words::pushed(&mut self.statics, &self.at, &along)
     }
 
     /// One step that follows the forces.
@@ -267,6 +280,11 @@ impl Search<'_> {
                 .and_then(|q| self.statics.balance(q));
             let at = match reached {
                 Ok(at) => at,
+                Err(EquilibriumError::Start(StartError::NoAssembly { .. }))
+                    if self.radius < REST_SHORTEST =>
+                {
+                    return Err(self.blocked());
+                }
                 Err(error) if self.radius < REST_SHORTEST => return Err(error),
                 Err(_) => {
                     self.radius *= 0.25;

@@ -8,7 +8,7 @@ use model::codes::Code;
 use model::words::{listed, rounded};
 use model::{CalledForce, RowLabel, StartError, UndefinedForce};
 use rank::Doubt;
-use solvability::{AnalysisError, Contradiction, StateError};
+use solvability::{AnalysisError, Contradiction, DriveLimit, StateError};
 
 pub use rows::DropError;
 
@@ -108,9 +108,9 @@ pub enum MotionFault {
     },
     /// A dropped row is no longer implied by the kept ones.
     #[error(
-        "at t = {t} s the dropped row {row} is violated by {residual:.3e} ({level}), {}: it \
-         contradicts the kept rows; it was redundant only at the start, or drives contradict each other",
-        above(*residual, *tolerance), t = rounded(*time))]
+        "at t = {t} s the dropped row {row} is violated by {residual:.3e} ({level}), {}: the kept rows implied it at \
+         the start, and do not imply it here; {}",
+        above(*residual, *tolerance), implied(drives), t = rounded(*time))]
     DroppedRow {
         /// Time (s).
         time: f64,
@@ -122,11 +122,15 @@ pub enum MotionFault {
         residual: f64,
         /// The largest residual allowed.
         tolerance: f64,
+        /// Drives and joints with functions of time among the row and those that implied it.
+        drives: Vec<String>,
     },
     /// A row that is redundant within the stated tolerance misses by more than data within it
     /// explain.
     #[error(
-        "at t = {time} s row {row} would have to give {residual:.3e} ({level}), and data within the stated tolerance explain {bound:.3e}: within it          the mechanism moves to here only ({way} since the start). Correct the dimensions of its joint, state the tolerance that the joint has, or          end the run earlier"
+        "at t = {time} s row {row} would have to give {residual:.3e} ({level}), and data within the stated tolerance explain {bound:.3e}: within it \
+         the mechanism moves to here only ({way} since the start). Correct the dimensions of its joint, state the tolerance that the joint has, or \
+         end the run earlier"
     )]
     BeyondTolerance {
         /// Time (s).
@@ -221,6 +225,13 @@ pub enum MotionFault {
         /// The first time tried after it (s).
         to: f64,
     },
+    /// Drives prescribe what no configuration satisfies.
+    #[error(
+        "at t = {t} s {limit}. End the run before, or prescribe a motion that turns back", t = rounded(limit.time))]
+    NoConfiguration {
+        /// The drives, and how far they go.
+        limit: Box<DriveLimit>,
+    },
     /// The kept rows became dependent, and no others can be chosen.
     #[error(
         "at t = {t} s the kept rows are nearly dependent and no others can be chosen: {what}", t = rounded(*time))]
@@ -268,6 +279,7 @@ impl MotionFault {
             Self::PositionJump { .. } => const { Code::new(421) },
             Self::SingularPassage { .. } => const { Code::new(422) },
             Self::NoRows { .. } => const { Code::new(423) },
+            Self::NoConfiguration { .. } => const { Code::new(428) },
             Self::Saddle { .. } => const { Code::new(424) },
             Self::Interrupted { .. } => const { Code::new(8) },
         }
@@ -401,6 +413,16 @@ fn undecided(doubt: &Doubt) -> String {
              nearer to the origin"
         ),
         other => other.to_string(),
+    }
+}
+
+/// Why a row is no longer implied, as far as the rows that implied it say.
+fn implied(drives: &[String]) -> String {
+    let names: Vec<String> = drives.iter().map(|name| format!("`{name}`")).collect();
+    match names.as_slice() {
+        [] => "compare the dimensions of its joint with those that `pfaff analyze` lists with it under \"Why\"".to_owned(),
+        [only] => format!("{only} prescribes a motion that the joints allowed there and forbid here"),
+        all => format!("the drives {}, which implied each other there, contradict each other here", listed(all)),
     }
 }
 

@@ -8,7 +8,7 @@ use model::{Assembly, Mechanism, Scratch, StartError, StartOptions, System};
 use rank::{KeptRowsError, RankStatus};
 use solvability::{
     ConstraintLevel, Contradiction, RowDecision, Rows, contradicting_drives, decide_rows_dropping,
-    rows as rows_of, rows_of_rank,
+    may_miss, rows as rows_of, rows_of_rank,
 };
 
 use crate::code::SharedCode;
@@ -249,7 +249,7 @@ fn on_rows(
     mechanism.c(&mut s);
     let labels = &mechanism.layout().labels;
     let refused = |e| DropError::new(e, labels, found.all.redundancy);
-    let may_miss = mechanism.has_tolerances() && found.all.redundancy > 0;
+    let may_miss = may_miss(&mechanism) && found.all.redundancy > 0;
     let (decision, position_decision) = match rows {
         RowChoice::Automatic => (found.all.clone(), found.holonomic.clone()),
         RowChoice::Drop(dropped) if may_miss => {

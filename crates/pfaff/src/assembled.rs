@@ -11,6 +11,7 @@ use solvability::{ConstraintLevel, State};
 use crate::configuration::{AskedRows, ConfigurationAnalysis};
 use crate::error::StudyError;
 use crate::study::{Overrides, Study};
+use crate::within;
 
 /// A scene whose mechanism has been built.
 ///
@@ -129,6 +130,10 @@ impl AssembledScene {
                 e.into()
             });
         }
+        let spare = match other {
+            None => within::spare(&mechanism),
+            Some(_) => None,
+        };
         let prepared = match prepare_after(mechanism, &scene.start, &rows, other) {
             Ok(prepared) => prepared,
             Err(e) if leaves_no_motion(&e) => {
@@ -143,7 +148,16 @@ impl AssembledScene {
             }
             // Only faults of the text have a place in it; rows may come from the caller.
             Err(e @ (MotionError::Start(_) | MotionError::Contradiction(_))) => {
-                return Err(refused(&scene, e));
+                let help = within::advice(spare.as_ref(), &scene, &rows, &e);
+                return Err(match (refused(&scene, e), help) {
+                    (StudyError::Scene(mut places), Some(help)) => {
+                        if let Some(place) = places.first_mut() {
+                            place.help = Some(help);
+                        }
+                        StudyError::Scene(places)
+                    }
+                    (error, _) => error,
+                });
             }
             Err(e @ MotionError::Rows(_)) if overrides.drop.is_none() => {
                 return Err(refused(&scene, e));

@@ -43,6 +43,7 @@ pub mod study;
 pub mod sweep;
 mod tables_of_run;
 pub mod tolerance;
+mod within;
 pub mod work_precision;
 
 pub use dynamics;

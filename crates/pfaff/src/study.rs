@@ -5,15 +5,17 @@ use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-use dynamics::equilibrium::{Equilibrium, EquilibriumOptions, equilibrium};
+use dynamics::equilibrium::{Equilibrium, EquilibriumError, EquilibriumOptions, equilibrium};
 use dynamics::linearise::{Linearisation, LineariseOptions, linearise};
 use dynamics::plan::{Reactions, Rows};
 use dynamics::{
     Failure, Method, MotionError, MotionFault, MotionOptions, Plan, Prepared, Sample,
     Stabilisation, Stop, Summary, Wanted, simulate_until,
 };
+use model::start::assemble;
 use model::{
-    AnyDescription, ConstraintId, FramePose, Known, Reaction, Registry, StartPose, System,
+    AnyDescription, ConstraintId, FramePose, Known, Reaction, Registry, StartError, StartPose,
+    System,
 };
 use report::documents::{
     DataDocument, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument,
@@ -35,6 +37,7 @@ use crate::report_builder::{OfRun, ReportBuilder};
 use crate::rows::{Calling, Ended, RowSink, run_into};
 use crate::spread::Path;
 use crate::tables_of_run::{ReactionFiles, TableRows, TrajectoryFile, group_numbers};
+use crate::within::missed;
 
 /// Largest number of rows of a mechanism for which an animation has additional rows between those
 /// of the tables.
@@ -42,6 +45,10 @@ const PICTURED_ROWS: usize = 600;
 
 /// Largest number of rows of a mechanism for which it is tested whether a motion begins.
 const BEGUN_ROWS: usize = 2000;
+
+/// Where a search has ended on the constraints, a start that misses by less than this share of the
+/// size is not too far from an assembled one: the constraints are dependent there.
+const REACHED: f64 = 1e-6;
 
 /// Searches for a place of rest that follow one from a singular start, at most.
 const SEARCHES: usize = 3;
@@ -327,7 +334,21 @@ impl Study {
                 }
             }
         }
-        AssembledScene::build(scene)?.prepare(&Overrides::default())
+        let assembled = AssembledScene::build(scene)?;
+        let (start, mut again) = (assembled.scene.start.clone(), assembled.mechanism.clone());
+        let size = self.prepared.assembly.size;
+        assembled.prepare(&Overrides::default()).map_err(|error| {
+            // The search has reached these coordinates on the constraints.
+            let left = match assemble(&mut again, &start) {
+                Err(StartError::NoAssembly { misfits, .. }) => missed(&misfits, size),
+                _ => f64::INFINITY,
+            };
+            if left <= REACHED * size {
+                EquilibriumError::Singular { left }.into()
+            } else {
+                error
+            }
+        })
     }
 
     /// The poses of all bodies at the coordinates q.

@@ -44,7 +44,9 @@ pub use within::{RankReading, certify_rank, certify_within};
 
 pub(crate) use clear::{Size, independent, size};
 pub(crate) use coefficient::coefficient_noise;
-pub use explicit::{KeptRowsError, decide_dropping, decide_keeping, dropping_of_rank};
+pub use explicit::{
+    KeptRowsError, decide_dropping, decide_keeping, dropping_of_rank, with_dropped,
+};
 
 /// Decides the rank of C, chooses the rows to keep, and expresses the others in terms of them.
 ///

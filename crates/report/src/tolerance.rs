@@ -16,7 +16,7 @@ const EXPLANATION: &str = "<p>Each sample is a mechanism whose points, direction
 tolerances; it is assembled again from the described pose and analysed there. Numbers are given in two readings. A reaction that is \
 <em>unique</em> as described has its values with the redundancy as it is described: redundant rows stay redundant, and play or elasticity \
 takes what they miss. For a reaction that is <em>not unique</em> the data may decide what the mechanism leaves open: its values \
-are those of rigid parts without play, where they exist. They show how much hangs on the last digits of the data; no real machine \
+are those of rigid parts without play, if all samples determine them. They show how much hangs on the last digits of the data; no real machine \
 is as stiff. Histograms show the middle of the samples; the table has the extremes.</p>\n";
 
 /// The page of samples; `clouds` are the places of markers (m), the described one first.
@@ -112,15 +112,19 @@ fn reaction_rows(page: &mut String, reaction: &ReactionRangeDocument) {
                 value.name, value.unit
             ),
         );
-        numbers(page, value.range.as_ref());
+        numbers(page, value.range.as_ref(), value.reason);
         page.push_str("</tr>\n");
     }
 }
 
-/// Cells of a range.
-fn numbers(page: &mut String, range: Option<&RangeDocument>) {
+/// Cells of a range, or why there is none.
+fn numbers(page: &mut String, range: Option<&RangeDocument>, reason: Option<&str>) {
     let Some(range) = range else {
-        page.push_str("<td colspan=\"9\" class=\"name grey\">no sample determines it</td>");
+        let reason = reason.unwrap_or("no sample determines it");
+        add(
+            page,
+            format_args!("<td colspan=\"9\" class=\"name grey\">{reason}</td>"),
+        );
         return;
     };
     let [low, middle, high] = range.percentiles;
@@ -171,7 +175,7 @@ fn places(page: &mut String, d: &ToleranceDocument, clouds: &[(String, Vec<[f64;
                     measure.unit
                 ),
             );
-            numbers(page, Some(&measure.range));
+            numbers(page, Some(&measure.range), None);
             page.push_str("</tr>\n");
         }
         page.push_str("</table></div>\n");

@@ -208,6 +208,11 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
                 (row(map, label), "redundant at the start alone")
             }
             MotionFault::DroppedRow { row: label, .. } => (row(map, label), "is violated"),
+            MotionFault::NoConfiguration { limit } => {
+                let first = limit.drives.first().map(|drive| drive.name.as_str());
+                let span = first.map_or(0..0, |name| element_key(map, name, &[]));
+                (span, "cannot go on")
+            }
             MotionFault::Massless { body, .. } => {
                 let entry = map.body(body);
                 let span = entry.map(|entry| entry.first_of(&["mass"]));

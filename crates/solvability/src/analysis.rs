@@ -19,7 +19,7 @@ use crate::certificate::Rows;
 use crate::large::judge_sparse;
 use crate::mechanism::part_verdicts;
 use crate::parts::{Extent, ListedRows, PartAnalysis, Partition};
-use crate::rows::told_of_whole;
+use crate::rows::{decide_rows, rows as rows_of, told_of_whole};
 use crate::state::check_configuration;
 
 /// The verdicts of one configuration.
@@ -332,7 +332,15 @@ pub fn analyse_dropping(
             };
         }
         let s = evaluated(part, t, q);
-        let decision = decide_dropping(part, &s, q, &own).map_err(|e| {
+        let rows = Rows::new(part, t, q, Known::AsStored)?;
+        let certified = rows.decide()?;
+        // Within a stated tolerance the rank need not be that of the matrix.
+        let decision = if part.has_tolerances() {
+            rows.dropping(&certified, &own)
+        } else {
+            decide_dropping(part, &s, q, &own)
+        };
+        let decision = decision.map_err(|e| {
             refused(match e {
                 KeptRowsError::Duplicate { row } => KeptRowsError::Duplicate {
                     row: extent.row(row),
@@ -340,8 +348,6 @@ pub fn analyse_dropping(
                 other => other,
             })
         })?;
-        let rows = Rows::new(part, t, q, Known::AsStored)?;
-        let certified = rows.decide()?;
         let same = certified.is_decided() && certified.rank == decision.rank;
         let mut found = part_verdicts(part, &s, &rows, decision)?;
         found.part.certificate = certified.evidence.certificate.filter(|_| same);
@@ -350,7 +356,13 @@ pub fn analyse_dropping(
     found.map_err(|e| match e {
         AnalysisError::Rows { time, source } => AnalysisError::Rows {
             time,
-            source: told_of_whole(mechanism, &evaluated(mechanism, t, q), q, dropped, source),
+            source: told_of_whole(source, dropped, || {
+                if mechanism.has_tolerances() {
+                    Ok(rows_of(mechanism, t, q)?.all)
+                } else {
+                    decide_rows(mechanism, &evaluated(mechanism, t, q), q)
+                }
+            }),
         },
         other => other,
     })

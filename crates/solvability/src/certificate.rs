@@ -14,8 +14,8 @@ use linalg::{DdMatrix, Matrix};
 use model::start::scene_size;
 use model::{Known, Mechanism, Polished, Scratch, System};
 use rank::{
-    Grounds, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankError,
-    RankReading, WeakestCombination, certify_rank,
+    Grounds, KeptRowsError, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision,
+    RankError, RankReading, WeakestCombination, certify_rank,
 };
 
 use crate::numerical_rank::{Nearness, Question, Reading, UncertainMatrix};
@@ -140,6 +140,15 @@ impl<'a> Rows<'a> {
             self.know_rows(&question, &mut decision, has_tolerance);
         }
         Ok(with_nearness(decision, nearness))
+    }
+
+    /// A decision on these rows with other dropped rows; its rank and evidence stay.
+    pub(crate) fn dropping(
+        &self,
+        decision: &RankDecision,
+        dropped: &[usize],
+    ) -> Result<RankDecision, KeptRowsError> {
+        rank::with_dropped(decision, &self.matrix(), dropped)
     }
 
     /// Determines how the accuracy of the data affects the rows of the dependencies: all of these

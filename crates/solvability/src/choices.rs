@@ -369,7 +369,7 @@ impl Configuration<'_> {
             &self.reactions.s,
             self.reactions.size,
         );
-        let decision = rank::decide_dropping(&c, &self.uncertainty, rows)
+        let decision = rank::with_dropped(self.solvability.decision(), &c, rows)
             .map_err(|source| self.refused(rows, source))?;
         let z = rank::dependencies(&decision);
         let mut lambda = lambda_0.to_vec();

@@ -10,6 +10,7 @@
 mod demands;
 mod drives;
 mod joints_first;
+mod limit;
 
 use std::collections::BTreeSet;
 
@@ -21,6 +22,7 @@ use crate::state::{self, StateError};
 use crate::words;
 pub use demands::Demand;
 pub use drives::{contradicting_drives, contradicting_drives_along};
+pub use limit::{DriveLimit, LimitedDrive, drive_limit};
 
 /// Redundant rows that contradict each other.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -222,6 +224,15 @@ pub fn contradictions(
     let excess = |c: &Contradiction| c.size / c.tolerance;
     found.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
     Ok(found)
+}
+
+/// Whether redundant rows may ask for other accelerations than the rows that imply them, and miss
+/// by what follows: where a tolerance is stated, rows may be redundant within it only. A motion on
+/// the kept rows then exists, and so do its reactions, until a row misses by more than data within
+/// the tolerance explain.
+#[must_use]
+pub fn may_miss(mechanism: &Mechanism) -> bool {
+    mechanism.has_tolerances()
 }
 
 /// Values of all rows at one level, and the size of their terms.

@@ -2,14 +2,19 @@
 //! connected component of the configuration set except on a nowhere dense part of it, so the ranks
 //! at a few other points of the same component decide.
 //!
-//! Other points are reached by steps along the free directions of the constraints. Drives are left
-//! out, because the values they prescribe change with time. If other constraints depend on time,
-//! time changes as well.
+//! Other points are reached by steps along the free directions of the constraints, without those
+//! that second order excludes: another branch may be near, and its rank says nothing of this one.
+//! Drives are left out, because the values they prescribe change with time. If other constraints
+//! depend on time, time changes as well.
+
+mod leaving;
 
 use crate::limits::{
-    GENERIC_HALVINGS, GENERIC_STEP, GENERIC_STEPS, ONE_PART, POINTS, POINTS_APART, WALKS,
+    GENERIC_HALVINGS, GENERIC_HOLDS, GENERIC_STEP, GENERIC_STEPS, GENERIC_STRAYED, ONE_PART,
+    POINTS, POINTS_APART, WALKS,
 };
 use crate::pose::{dimensionless, uncertainty, velocity_units};
+use leaving::Leaving;
 use linalg::{Matrix, PivotedQr};
 use model::start::{Metric, nearest_configuration, scene_size};
 use model::{DataBlock, Mechanism, SHARED, System};
@@ -50,23 +55,27 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     if mechanism.layout().rows() > ONE_PART {
         return None;
     }
-    let rows = Lasting::of(mechanism, t, q);
     let compared = compared_rows(mechanism, t, q)?;
     let size = scene_size(mechanism, q);
-    let units = velocity_units(mechanism, size);
+    let walker = Walker {
+        mechanism,
+        rows: Lasting::of(mechanism, t, q),
+        units: velocity_units(mechanism, size),
+        size,
+        leaving: Leaving::new(mechanism, t, q),
+        moves_time: has_lasting_function(mechanism),
+    };
     let mut points: Vec<OtherConfiguration> = Vec::new();
     let mut visited = vec![(t, q.to_vec())];
     for walk in 0..WALKS {
         let from = &visited[visited.len() - 1];
-        let Some(there) = walk_from(mechanism, from, &rows, &units, size, walk) else {
+        let Some(there) = walker.walk_from(from, walk) else {
             continue;
         };
-        let is_new = |(t, q): &(f64, Vec<f64>)| {
-            let moved = mechanism.difference_of(&there.1, q).into_iter();
-            there.0 != *t || length(moved, &units, size) >= POINTS_APART
-        };
+        let is_new =
+            |(t, q): &(f64, Vec<f64>)| there.0 != *t || walker.apart(&there.1, q) >= POINTS_APART;
         if visited.iter().all(is_new) {
-            points.extend(elsewhere(mechanism, &there, &compared));
+            points.extend(walker.elsewhere(&there, &compared));
         }
         visited.push(there);
         if points.len() == POINTS {
@@ -75,14 +84,6 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     }
     let redundancy = points.iter().map(|p| p.redundancy).min()?;
     Some(Generic { redundancy, points })
-}
-
-/// The largest component of a displacement, as a fraction of the size of the mechanism or in
-/// radians.
-fn length(d: impl Iterator<Item = f64>, units: &[f64], size: f64) -> f64 {
-    d.zip(units)
-        .map(|(d, unit)| (d / unit / size).abs())
-        .fold(0.0, f64::max)
 }
 
 /// Whether the degree of redundancy is the same at other configurations. Returns `None` if
@@ -147,54 +148,174 @@ impl Lasting {
     }
 }
 
-/// The last point of one walk, if it moved away from the start.
-fn walk_from(
-    mechanism: &Mechanism,
-    from: &(f64, Vec<f64>),
-    rows: &Lasting,
-    units: &[f64],
+/// Walks along the motions that the constraints allow without the drives.
+struct Walker<'m> {
+    mechanism: &'m Mechanism,
+    rows: Lasting,
+    /// Units of the velocities in a mechanism of size one.
+    units: Vec<f64>,
     size: f64,
-    walk: usize,
-) -> Option<(f64, Vec<f64>)> {
-    let moves_time = has_lasting_function(mechanism);
-    // Different step lengths prevent the walks from returning to the start.
-    let stride = GENERIC_STEP * (1.0 + 0.5 * spread(walk + 1));
-    let (mut t, mut q) = from.clone();
-    let mut heading: Option<Vec<f64>> = None;
-    for _ in 0..GENERIC_STEPS {
-        let directions = free_directions(mechanism, t, &q, &rows.held, units)?;
-        if directions.nrows() == 0 && !moves_time {
-            return None;
-        }
-        let mut step = match &heading {
-            None => mixed(&directions, walk),
-            // The projection of the last step onto the free directions.
-            Some(last) => directions.transpose_times(&directions.times(last)),
-        };
-        heading = Some(step.clone());
-        step.iter_mut().zip(units).for_each(|(d, unit)| *d *= unit);
-        let largest = length(step.iter().copied(), units, size);
-        let time = if moves_time { stride } else { 0.0 };
-        let next = (0..GENERIC_HALVINGS).find_map(|halving| {
-            let share = 0.5_f64.powi(halving);
-            let factor = if largest > 0.0 {
-                stride * share / largest
-            } else {
-                0.0
+    leaving: Leaving<'m>,
+    /// Whether a constraint that is not a drive depends on time.
+    moves_time: bool,
+}
+
+impl Walker<'_> {
+    /// The last point of one walk, if it moved away from the start.
+    fn walk_from(&self, from: &(f64, Vec<f64>), walk: usize) -> Option<(f64, Vec<f64>)> {
+        // Different step lengths prevent the walks from returning to the start.
+        let stride = GENERIC_STEP * (1.0 + 0.5 * spread(walk + 1));
+        let (mut t, mut q) = from.clone();
+        let mut heading: Option<Vec<f64>> = None;
+        for _ in 0..GENERIC_STEPS {
+            let (free, kept) = self.free_directions(t, &q)?;
+            let directions = self.leaving.possible(free, (t, &q), &self.units);
+            if directions.nrows() == 0 && !self.moves_time {
+                break;
+            }
+            let ahead = match &heading {
+                None => mixed(&directions, walk),
+                // The projection of the last step onto the free directions.
+                Some(last) => directions.transpose_times(&directions.times(last)),
             };
-            let moved = mechanism.space().displaced(&q, factor, &step);
-            let later = t + time * share;
-            let there =
-                nearest_configuration(mechanism, later, &rows.held, &moved, Metric::Length).ok()?;
-            rows.agree(mechanism, later, &there)
-                .then_some((later, there))
-        });
-        let Some(next) = next else {
-            break;
-        };
-        (t, q) = next;
+            let step = |ahead: Vec<f64>| {
+                let there = self.step((t, &q), &kept, &ahead, stride)?;
+                Some((there, ahead))
+            };
+            // Where branches meet, a mixture of their directions may lead nowhere.
+            let next = step(ahead).or_else(|| {
+                let mut branches = match heading {
+                    None => self.leaving.branches((t, &q), &self.units),
+                    Some(_) => Vec::new(),
+                };
+                let first = walk % branches.len().max(1);
+                branches.rotate_left(first);
+                branches.into_iter().find_map(step)
+            });
+            let Some(((later, there), ahead)) = next else {
+                break;
+            };
+            heading = Some(ahead);
+            (t, q) = (later, there);
+        }
+        ((t, &q) != (from.0, &from.1)).then_some((t, q))
     }
-    ((t, &q) != (from.0, &from.1)).then_some((t, q))
+
+    /// The configuration after a step along a velocity without dimensions, of the stride or of a
+    /// halved one.
+    fn step(
+        &self,
+        (t, q): (f64, &[f64]),
+        kept: &[usize],
+        ahead: &[f64],
+        stride: f64,
+    ) -> Option<(f64, Vec<f64>)> {
+        let mechanism = self.mechanism;
+        let step: Vec<f64> = ahead
+            .iter()
+            .zip(&self.units)
+            .map(|(d, unit)| d * unit)
+            .collect();
+        let largest = self.length(step.iter().copied());
+        let time = if self.moves_time { stride } else { 0.0 };
+        (0..GENERIC_HALVINGS).find_map(|halving| {
+            let share = 0.5_f64.powi(halving);
+            let length = if largest > 0.0 { stride * share } else { 0.0 };
+            let factor = if largest > 0.0 { length / largest } else { 0.0 };
+            let moved = mechanism.space().displaced(q, factor, &step);
+            let later = t + time * share;
+            let on = |rows: &[usize]| {
+                let there = nearest_configuration(mechanism, later, rows, &moved, Metric::Length);
+                let there = there.ok()?;
+                // A correction as long as the step leads to another branch.
+                let has_strayed =
+                    !self.moves_time && self.apart(&there, &moved) > GENERIC_STRAYED * length;
+                (!has_strayed).then_some(there)
+            };
+            // Where rows stay redundant, those that are kept determine more digits: the others
+            // hold a rotation that they block only to the root of rounding.
+            let there = on(kept).filter(|there| self.hold(later, there));
+            let there = there.or_else(|| on(&self.rows.held))?;
+            self.rows
+                .agree(mechanism, later, &there)
+                .then_some((later, there))
+        })
+    }
+
+    /// Whether all rows that are held are satisfied to rounding.
+    fn hold(&self, t: f64, q: &[f64]) -> bool {
+        let s = crate::pose::evaluated(self.mechanism, t, q);
+        let scales = self.mechanism.scales(&s);
+        let mut held = self.rows.held.iter();
+        held.all(|&i| s.phi[i].abs() <= GENERIC_HOLDS * scales.position(i))
+    }
+
+    /// Basis of the dimensionless velocities that the held rows of Φq allow, one velocity in each
+    /// row, and independent rows among them.
+    fn free_directions(&self, t: f64, q: &[f64]) -> Option<(Matrix, Vec<usize>)> {
+        let s = crate::pose::evaluated(self.mechanism, t, q);
+        let mut phi_q = self
+            .mechanism
+            .layout()
+            .dense(&s)
+            .select_rows(&self.rows.held);
+        for i in 0..phi_q.nrows() {
+            let row = phi_q.row_mut(i).iter_mut();
+            row.zip(&self.units)
+                .for_each(|(entry, unit)| *entry *= unit);
+        }
+        let n = phi_q.ncols();
+        let decision = rank::decide(&phi_q, 0.0).ok()?;
+        let kept = phi_q.select_rows(&decision.kept);
+        let free = PivotedQr::of_rows(kept).q_columns(decision.rank..n);
+        let rows = decision.kept.iter().map(|&k| self.rows.held[k]);
+        Some((free.transpose(), rows.collect()))
+    }
+
+    /// The rank of the compared rows at a point, if it is decided there.
+    fn elsewhere(
+        &self,
+        (t, q): &(f64, Vec<f64>),
+        compared: &[usize],
+    ) -> Option<OtherConfiguration> {
+        let mechanism = self.mechanism;
+        let mut s = crate::pose::evaluated(mechanism, *t, q);
+        // Drives were left out of the walk, and have other values at this configuration. A row that
+        // was left out because it is redundant within a tolerance has to agree there with the
+        // others.
+        let drives = mechanism.layout().groups.iter().filter(|g| g.is_drive());
+        for rows in drives.map(|g| g.rows.holonomic.clone()) {
+            s.phi[rows].fill(0.0);
+        }
+        let decision = if self.leaving.excludes() {
+            // Rows that block a rotation at second order hold it to the root of rounding only.
+            let known = f64::EPSILON.sqrt();
+            let c = dimensionless(mechanism, &s, scene_size(mechanism, q));
+            rank::decide(&c.select_rows(compared), known).ok()?
+        } else {
+            let rows = Rows::in_double(mechanism, &s, q).select(compared);
+            rows.decide().ok()?
+        };
+        decision.is_decided().then(|| OtherConfiguration {
+            time: *t,
+            q: q.clone(),
+            rank: decision.rank,
+            redundancy: mechanism.layout().rows() - decision.rank,
+        })
+    }
+
+    /// The largest component of a displacement, as a fraction of the size of the mechanism or in
+    /// radians.
+    fn length(&self, d: impl Iterator<Item = f64>) -> f64 {
+        d.zip(&self.units)
+            .map(|(d, unit)| (d / unit / self.size).abs())
+            .fold(0.0, f64::max)
+    }
+
+    /// The distance of two configurations, in the same measure.
+    fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
+        self.length(self.mechanism.difference_of(a, b).into_iter())
+    }
 }
 
 /// Whether a constraint that is not a drive depends on time.
@@ -230,57 +351,6 @@ fn compared_rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Vec<usize>>
     let mut rows: Vec<usize> = here.kept.iter().copied().chain(dependent).collect();
     rows.sort_unstable();
     Some(rows)
-}
-
-/// The rank of the compared rows at a point, if it is decided there.
-fn elsewhere(
-    mechanism: &Mechanism,
-    (t, q): &(f64, Vec<f64>),
-    compared: &[usize],
-) -> Option<OtherConfiguration> {
-    let mut s = crate::pose::evaluated(mechanism, *t, q);
-    // Drives were left out of the walk, and have other values at this configuration. A row that was
-    // left out because it is redundant within a tolerance has to agree there with the others.
-    let drives = mechanism.layout().groups.iter().filter(|g| g.is_drive());
-    for rows in drives.map(|g| g.rows.holonomic.clone()) {
-        s.phi[rows].fill(0.0);
-    }
-    let decision = Rows::in_double(mechanism, &s, q)
-        .select(compared)
-        .decide()
-        .ok()?;
-    decision.is_decided().then(|| OtherConfiguration {
-        time: *t,
-        q: q.clone(),
-        rank: decision.rank,
-        redundancy: mechanism.layout().rows() - decision.rank,
-    })
-}
-
-/// Basis of the dimensionless velocities that these rows of Φq allow, one velocity in each row.
-fn free_directions(
-    mechanism: &Mechanism,
-    t: f64,
-    q: &[f64],
-    rows: &[usize],
-    units: &[f64],
-) -> Option<Matrix> {
-    let mut s = mechanism.scratch();
-    mechanism.pose(t, q, &mut s);
-    mechanism.c(&mut s);
-    let mut phi_q = mechanism.layout().dense(&s).select_rows(rows);
-    for i in 0..phi_q.nrows() {
-        let row = phi_q.row_mut(i).iter_mut();
-        row.zip(units).for_each(|(entry, unit)| *entry *= unit);
-    }
-    let n = phi_q.ncols();
-    let decision = rank::decide(&phi_q, 0.0).ok()?;
-    let kept = phi_q.select_rows(&decision.kept);
-    Some(
-        PivotedQr::of_rows(kept)
-            .q_columns(decision.rank..n)
-            .transpose(),
-    )
 }
 
 /// A combination of all directions with coefficients that do not repeat.

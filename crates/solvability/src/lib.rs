@@ -89,7 +89,8 @@ pub use choices::{
 };
 pub use error::AnalysisError;
 pub use existence::{
-    Contradiction, Demand, Ranks, contradicting_drives, contradicting_drives_along, contradictions,
+    Contradiction, Demand, DriveLimit, LimitedDrive, Ranks, contradicting_drives,
+    contradicting_drives_along, contradictions, drive_limit, may_miss,
 };
 pub use explain::{
     Explanation, ExplanationError, FreeDirection, Mixing, ReactionExplanation, SelfStress, explain,
@@ -115,7 +116,8 @@ pub use pose::{decide, decide_dropping, decide_holonomic};
 pub use questions::{EliminationError, Numbers, Questions};
 pub use row_decision::RowDecision;
 pub use rows::{
-    Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows, rows_of_rank,
+    Rows, decide_holonomic_rows, decide_of_rank, decide_rows, decide_rows_dropping, rows,
+    rows_of_rank,
 };
 pub use second_order::{Continuation, Undetermined, blocked_velocities, is_locked, second_order};
 pub use sensitivity::{Datum, ReactionNumber, ReactionSensitivities, Sensitivities, Sensitivity};

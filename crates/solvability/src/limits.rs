@@ -241,11 +241,60 @@ pub(crate) const GENERIC_STEP: f64 = 0.2;
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const GENERIC_HALVINGS: i32 = 5;
 
+/// A step is refused if the constraints correct it by more than this share of its length: it leads
+/// to another branch, whose rank says nothing of this one.
+/// Unit: share of the step. Less: branches that curve are not followed. More: other branches are
+/// compared. Test: `legs_that_stay_parallel_are_not_compared_with_those_that_do_not`.
+pub(crate) const GENERIC_STRAYED: f64 = 0.3;
+
+/// Rows that are redundant at a configuration and miss by less than this share of their terms
+/// after a step on the others are redundant there, too.
+/// Unit: share of the terms. Less: rounding is a miss. More: rows that part count as redundant.
+/// Test: `legs_that_stay_parallel_are_not_compared_with_those_that_do_not`.
+pub(crate) const GENERIC_HOLDS: f64 = 1e-12;
+
 /// Points must be this far from each other and from the given one, in the same measure.
 /// Unit: share of the size, or rad. Less: the same configuration is asked twice. More: too few
 /// configurations are found. Test:
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const POINTS_APART: f64 = 0.1;
+
+// Drives that cannot go on.
+
+/// Step along the curve of configurations towards the place where drives cannot go on.
+/// Unit: share of the size, or rad. Less: the place is not reached. More: corrections lead to
+/// another branch. Test: `a_winch_stops_where_its_bar_is_stretched`.
+pub(crate) const LIMIT_STEP: f64 = 0.02;
+
+/// Such steps: a run that stops there stands before it.
+/// Unit: steps. Less: the place is not reached. More: places that did not stop the run are blamed.
+/// Test: `a_winch_stops_where_its_bar_is_stretched`.
+pub(crate) const LIMIT_STEPS: usize = 20;
+
+/// Corrections of a point of the curve, at most: each doubles its digits.
+/// Unit: corrections. Less: points far from their tangent are not reached. More: time. Test:
+/// `a_winch_stops_where_its_bar_is_stretched`.
+pub(crate) const LIMIT_CORRECTIONS: usize = 12;
+
+/// A shorter correction has arrived.
+/// Unit: share of the size, or rad. Less: rounding is corrected without end. More: the place has
+/// few digits. Test: `a_winch_stops_where_its_bar_is_stretched`.
+pub(crate) const LIMIT_ARRIVED: f64 = 1e-11;
+
+/// Halvings of the last step.
+/// Unit: halvings. Less: the place has few digits. More: time. Test:
+/// `a_winch_stops_where_its_bar_is_stretched`.
+pub(crate) const LIMIT_HALVINGS: usize = 40;
+
+/// Shares of the largest part below this are rounding, of drives and of curvatures.
+/// Unit: share. Less: rounding is a drive. More: a drive is left out. Test:
+/// `two_drives_reach_as_far_as_the_arm`.
+pub(crate) const LIMIT_ROUNDING: f64 = 1e-6;
+
+/// Free velocities there, at most: the curvature of more is not examined.
+/// Unit: velocities. Less: drives of mechanisms with a free motion are not named. More: curvatures
+/// are not examined. Test: `a_free_arm_reaches_as_far_as_it_is_long`.
+pub(crate) const LIMIT_FORMS: usize = 2;
 
 // Drives that contradict each other.
 

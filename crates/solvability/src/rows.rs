@@ -210,7 +210,7 @@ pub fn decide_rows_dropping(
             other => other,
         })
     });
-    found.map_err(|e| told_of_whole(mechanism, s, q, dropped, e))
+    found.map_err(|e| told_of_whole(e, dropped, || decide_rows(mechanism, s, q)))
 }
 
 /// Rows kept at a rank that is known from the start, among the first `count` rows: within a stated
@@ -223,35 +223,49 @@ pub fn rows_of_rank(
     mechanism: &Mechanism,
     s: &Scratch,
     q: &[f64],
-    (count, rank): (usize, usize),
+    count_and_rank: (usize, usize),
     dropped: Option<&[usize]>,
 ) -> Result<RowDecision, KeptRowsError> {
+    Ok((&decide_of_rank(mechanism, s, q, count_and_rank, dropped)?).into())
+}
+
+/// Like [`rows_of_rank`], with the dependencies of the dropped rows, as they are nearest to the
+/// kept ones.
+///
+/// # Errors
+/// As [`decide_dropping`].
+pub fn decide_of_rank(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+    (count, rank): (usize, usize),
+    dropped: Option<&[usize]>,
+) -> Result<RankDecision, KeptRowsError> {
     let size = scene_size(mechanism, q);
     let first: Vec<usize> = (0..count).collect();
     let c = dimensionless(mechanism, s, size).select_rows(&first);
     let known = uncertainty(mechanism, s, size).select_rows(&first);
-    let found = match dropped {
+    Ok(match dropped {
         Some(dropped) => rank::dropping_of_rank(&c, &known, dropped, rank)?,
         None => rank::decide_of_rank(&c, &known, rank)?,
-    };
-    Ok((&found).into())
+    })
 }
 
 /// Converts an error with rows of one part to the numbers of the whole mechanism. If the number of
 /// dropped rows equals the redundancy of the whole but not that of each part, the kept rows are
 /// dependent.
 pub(crate) fn told_of_whole(
-    mechanism: &Mechanism,
-    s: &Scratch,
-    q: &[f64],
-    dropped: &[usize],
     error: KeptRowsError,
+    dropped: &[usize],
+    whole: impl FnOnce() -> Result<RowDecision, AnalysisError>,
 ) -> KeptRowsError {
-    let rows = mechanism.layout().rows();
-    let (KeptRowsError::WrongCount { .. }, Ok(whole)) = (error, decide_rows(mechanism, s, q))
-    else {
+    let KeptRowsError::WrongCount { .. } = error else {
         return error;
     };
+    let Ok(whole) = whole() else {
+        return error;
+    };
+    let rows = whole.kept.len() + whole.dropped.len();
     if dropped.len() == whole.redundancy {
         KeptRowsError::Dependent {
             smallest_singular_value: 0.0,

@@ -77,6 +77,11 @@ pub enum UnitError {
         /// The other units.
         units: Units,
     },
+    /// Rows are redundant within a stated tolerance only.
+    #[error(
+        "rows are redundant within the stated tolerance only, and numbers that are unique are so within it, not to rounding"
+    )]
+    WithinTolerance,
 }
 
 impl UnitError {
@@ -86,7 +91,9 @@ impl UnitError {
         match self {
             Self::Choice(e) => e.code(),
             Self::Request(e) => e.code(),
-            Self::Rank { .. } | Self::RankChanges { .. } => const { Code::new(313) },
+            Self::Rank { .. } | Self::RankChanges { .. } | Self::WithinTolerance => {
+                const { Code::new(313) }
+            }
         }
     }
 }
@@ -99,6 +106,7 @@ impl UnitError {
 /// # Errors
 /// - [`UnitError::Choice`]: there is no least norm.
 /// - [`UnitError::RankChanges`]: no verdict is reliable.
+/// - [`UnitError::WithinTolerance`]: rows are redundant within a stated tolerance only.
 /// - [`UnitError::Request`], [`UnitError::Rank`]: t, q or v do not fit the mechanism or are not
 ///   finite.
 pub fn check_units(
@@ -117,6 +125,9 @@ pub(crate) fn check_equations(
     configuration: &Configuration<'_>,
     real: &Equations,
 ) -> Result<Vec<UnitCheck>, UnitError> {
+    if configuration.solvability.decision().is_within_tolerance() {
+        return Err(UnitError::WithinTolerance);
+    }
     let numbers = Numbers::of(configuration)?;
     let mut checks = numbers.checks.clone();
     let decision = configuration.solvability.decision();

@@ -53,6 +53,28 @@ pub enum EquilibriumError {
         /// What is pushed there.
         pushed: Vec<Pushed>,
     },
+    /// The search came to a configuration from which no step can be assembled.
+    #[error(
+        "no place of rest was found: after {steps} steps the mechanism is at a singular configuration, from which no step \
+         can be assembled along {}; describe a start nearer to rest, or correct the dimensions",
+        push(pushed)
+    )]
+    Blocked {
+        /// Number of steps.
+        steps: usize,
+        /// What is pushed there.
+        pushed: Vec<Pushed>,
+    },
+    /// At the place that was found no start can be assembled, although the search reached it on
+    /// the constraints.
+    #[error(
+        "no place of rest was found: the search ends at a singular configuration, at which the constraints determine \
+         the places of the bodies to {left:.1e} m only; describe a start nearer to rest, or correct the dimensions"
+    )]
+    Singular {
+        /// What the constraints still miss there (m).
+        left: f64,
+    },
     /// A force has no finite value.
     #[error(
         "{what} on body `{body}` is not finite on the way to rest; describe a start nearer to rest"
@@ -93,7 +115,10 @@ impl EquilibriumError {
         match self {
             Self::Prescribed { .. } => const { Code::new(225) },
             Self::Pushed(_) => const { Code::new(226) },
-            Self::NotFound { .. } | Self::NotFinite { .. } => const { Code::new(227) },
+            Self::NotFound { .. }
+            | Self::Blocked { .. }
+            | Self::Singular { .. }
+            | Self::NotFinite { .. } => const { Code::new(227) },
             Self::NoDerivatives(_) => const { Code::new(427) },
             Self::Start(error) => error.code(),
         }

@@ -1,7 +1,7 @@
 //! Dropped rows: whether the kept rows imply them, and the residuals of all rows. The residual of a
 //! dropped row after projection certifies the redundancy at no extra cost.
 
-use model::{ConstraintLevel, Level};
+use model::{ConstraintLevel, Level, System};
 
 use super::levels::largest;
 use crate::counts::{Counted, note};
@@ -95,6 +95,26 @@ pub(super) fn check_positions(equations: &mut KeptEquations<'_>) -> Result<(), M
         floor: |_| 0.0,
     };
     check.of(rows, at, &mut equations.misfits)
+}
+
+/// The drives and joints with functions of time in the dependency of the dropped row i.
+fn drives_among(
+    rows: &mut KeptRows,
+    at: &Evaluation<'_>,
+    i: usize,
+) -> Result<Vec<String>, MotionFault> {
+    let layout = at.mechanism.layout();
+    let mut z = vec![0.0; layout.rows()];
+    rows.dependency(at, i, &mut z)?;
+    let share = dropped_misfit(rows);
+    let mut names: Vec<String> = Vec::new();
+    for (k, _) in z.iter().enumerate().filter(|(_, z)| z.abs() > share) {
+        let group = &layout.groups[layout.owners[k].0];
+        if group.spec.rheonomic && !names.contains(&group.name) {
+            names.push(group.name.clone());
+        }
+    }
+    Ok(names)
 }
 
 /// Allowed residual of rows that depend on these, as a fraction of their terms: rounding of the
@@ -198,6 +218,7 @@ where
                     level: self.name(),
                     residual,
                     tolerance,
+                    drives: drives_among(rows, at, i)?,
                 });
             }
         }

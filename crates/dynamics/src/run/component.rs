@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use integrators::{Interval, Options, OutputTimes, Rows};
+use integrators::{IntegrationError, Interval, Options, OutputTimes, Rows};
 use model::System;
-use solvability::{Group, contradicting_drives_along, generic};
+use solvability::{Group, contradicting_drives_along, drive_limit, generic};
 
 use super::caller::{ShowRow, Stop, Watch, named};
 use super::equations::RunEquations;
@@ -79,9 +79,9 @@ pub(super) fn run_component(
     let clock = Instant::now();
     let outcome = run.go(method, &interval, &y0, &settings);
     let wall_seconds = clock.elapsed().as_secs_f64();
-    let (t, statistics) = match &outcome {
-        Ok(o) => (o.t, o.statistics),
-        Err(f) => (f.t, f.statistics),
+    let (t, y, statistics) = match &outcome {
+        Ok(o) => (o.t, o.y.clone(), o.statistics),
+        Err(f) => (f.t, f.y.clone(), f.statistics),
     };
     let (verdicts, dropped) = run.equations.finish_verdicts(&groups, t).unzip();
     let summary = Summary {
@@ -113,6 +113,7 @@ pub(super) fn run_component(
         },
     };
     let error = at_singular_start(prepared, of_drives(prepared, options.t_end, error));
+    let error = at_drive_limit(prepared, (t, &y), error);
     Err(Box::new(Failure { error, summary }))
 }
 
@@ -142,6 +143,40 @@ fn of_drives(prepared: &Prepared, t_end: f64, error: MotionError) -> MotionError
         Some(contradiction) => MotionFault::Drives {
             time: *time,
             contradiction: Box::new(contradiction),
+        }
+        .into(),
+        None => error,
+    }
+}
+
+/// If drives prescribe what no configuration near the last state satisfies, names these drives as
+/// the cause why the steps end there, whichever row or number was found first.
+fn at_drive_limit(prepared: &Prepared, (t, y): (f64, &[f64]), error: MotionError) -> MotionError {
+    let is_of_steps = match &error {
+        MotionError::Integration(e) => matches!(**e, IntegrationError::StepSizeCollapsed { .. }),
+        MotionError::Fault(fault) => matches!(
+            fault,
+            MotionFault::SingularPassage { .. }
+                | MotionFault::RankLost { .. }
+                | MotionFault::OffConstraints { .. }
+                | MotionFault::IndependentCoordinates { .. }
+                | MotionFault::FarCompletion { .. }
+                | MotionFault::NoRows { .. }
+        ),
+        _ => false,
+    };
+    let layout = prepared.mechanism.layout();
+    if !is_of_steps || !layout.rheonomic || y.len() < layout.n_q + layout.n_v {
+        return error;
+    }
+    let (q, v) = (&y[..layout.n_q], &y[layout.n_q..layout.n_q + layout.n_v]);
+    match drive_limit(
+        &prepared.mechanism,
+        &prepared.position_decision.kept,
+        (t, q, v),
+    ) {
+        Some(limit) => MotionFault::NoConfiguration {
+            limit: Box::new(limit),
         }
         .into(),
         None => error,

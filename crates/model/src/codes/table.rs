@@ -975,7 +975,7 @@ pub const TABLE: &[Entry] = &[
     entry(
         416,
         "A dropped row is violated",
-        "It is redundant at the start only, or drives contradict each other.",
+        "The rows that implied it at the start do not imply it here: `pfaff analyze` lists them; correct the joints, or what drives among them prescribe.",
         RARE,
     ),
     entry(
@@ -1043,6 +1043,15 @@ pub const TABLE: &[Entry] = &[
         "A called function has no derivatives",
         "Use an explicit method, or give the drive a law as a text where derivatives are needed.",
         CALLED,
+    ),
+    entry(
+        428,
+        "Drives prescribe what no configuration satisfies",
+        "End the run before that time, or prescribe a motion that turns back.",
+        Example::Scene(
+            "simulate - --out run",
+            "[scene]\nname = \"winch\"\nspace = \"plane\"\n\n[[body]]\nname = \"bar\"\nmass = 1.0\ninertia = 0.1\nposition = [0.0, 0.5]\n\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n\n[[joint]]\nname = \"rope\"\ntype = \"distance\"\nbodies = [\"ground\", \"bar\"]\nat = [[-2.0, 0.0], [0.0, 1.0]]\n\n[[drive]]\nname = \"winch\"\njoint = \"rope\"\ntype = \"length\"\nmotion = { type = \"constant-rate\", rate = 0.5 }\n\n[simulate]\nt_end = 3.0\n",
+        ),
     ),
     entry(
         430,

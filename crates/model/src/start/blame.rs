@@ -3,8 +3,8 @@
 
 use rank::Circuit;
 
-use super::conflict::{CANCELLED, HeldVelocity, VelocityConflict};
-use super::dependent::DependentVelocities;
+use super::conflict::{CANCELLED, HeldVelocity, Locked, VelocityConflict};
+use super::dependent::{DependentVelocities, Equations};
 use super::error::StartError;
 use super::options::CorrectionLimit;
 use super::velocity::{Hold, Miss, Start};
@@ -13,6 +13,17 @@ use crate::system::{RowLabel, System};
 
 /// Largest number of velocities to leave out that are searched for.
 const LEFT_OUT: usize = 40;
+
+/// The names in their order, each once.
+fn each_once<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
+    let mut once: Vec<String> = Vec::new();
+    for name in names {
+        if !once.contains(name) {
+            once.push(name.clone());
+        }
+    }
+    once
+}
 
 /// A velocity that rows do not allow.
 struct Fault {
@@ -88,6 +99,24 @@ impl Start<'_> {
             leave_out,
             is_enough,
             can_be_corrected,
+            locked: self.locked(rows, &columns),
+        })
+    }
+
+    /// The bodies of these velocities, if the rows, which are independent, leave them none but zero.
+    fn locked(&self, rows: &[usize], columns: &[usize]) -> Option<Locked> {
+        let Equations { mechanism, s, .. } = &self.equations;
+        if rows.len() < columns.len() || rows.iter().any(|&i| s.b[i] != 0.0) {
+            return None;
+        }
+        let space = mechanism.space();
+        let bodies = columns
+            .iter()
+            .map(|&j| &mechanism.bodies()[space.body_of(j)].name);
+        let joints = rows.iter().map(|&i| &mechanism.layout().labels[i].joint);
+        Some(Locked {
+            bodies: each_once(bodies),
+            joints: each_once(joints),
         })
     }
 

@@ -34,6 +34,18 @@ pub struct VelocityConflict {
     pub is_enough: bool,
     /// Whether there are velocities compatible with those that `keep` holds.
     pub can_be_corrected: bool,
+    /// Why there are none but zero, if that is so.
+    pub locked: Option<Locked>,
+}
+
+/// Bodies that independent rows leave no velocity, with mobility 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Locked {
+    /// The bodies.
+    pub bodies: Vec<String>,
+    /// The joints and drives of the rows.
+    pub joints: Vec<String>,
 }
 
 /// The entry of a scene that holds a velocity.
@@ -119,6 +131,18 @@ impl VelocityConflict {
             (plain, _) => plain,
         };
         let fact = format!("`{coordinate}` of body `{body}` is {held} {given_as}");
+        if let Some(Locked { bodies, joints }) = &self.locked {
+            let names = |all: &[String]| {
+                let quoted = all.iter().map(|name| format!("`{name}`"));
+                named(&quoted.collect::<Vec<_>>())
+            };
+            let word = if bodies.len() == 1 { "body" } else { "bodies" };
+            return format!(
+                "{fact}, but {word} {} cannot move, mobility 0: the joints {} leave no free velocity",
+                names(bodies),
+                names(joints)
+            );
+        }
         let nearest = format!(
             "in velocities that fit it is {}{off}",
             short(*nearest, *given)
@@ -153,6 +177,16 @@ impl VelocityConflict {
     fn advice(&self) -> String {
         let out: Vec<String> = self.leave_out.iter().map(HeldVelocity::to_string).collect();
         let mut ways = Vec::new();
+        if self.locked.is_some() {
+            let given = match out.as_slice() {
+                [] => "the given velocities".to_owned(),
+                [only] => only.clone(),
+                [first @ .., last] => format!("{} and {last}", first.join(", ")),
+            };
+            return format!(
+                "leave out {given}, so that they stay at rest; or release one of these joints, if they are to move"
+            );
+        }
         match out.as_slice() {
             [] => {}
             [only] => ways.push(format!(

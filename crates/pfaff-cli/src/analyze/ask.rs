@@ -67,7 +67,9 @@ pub(super) fn document(
         let facts = match configuration.facts() {
             Ok(facts) => facts,
             // The comparison of units uses double precision, the choices use the proved rank.
-            Err(StudyError::Units(e @ UnitError::RankChanges { .. })) => {
+            Err(StudyError::Units(
+                e @ (UnitError::RankChanges { .. } | UnitError::WithinTolerance),
+            )) => {
                 document.warnings.push(format!(
                     "a change of units does not distinguish facts from choices: {e}"
                 ));

@@ -8,20 +8,10 @@ use crate::output::wrapped;
 /// Returns an empty text if no tolerance is stated and no lower rank is near.
 pub(super) fn describe(d: &AnalysisDocument) -> String {
     let data = &d.data;
-    let near = match (data.lower_rank_from, data.lower_rank_here) {
-        (Some(from), _) => Some(format!(
-            "one row is redundant from a tolerance of {} on (`--tolerance {from:.1e}`)",
-            length(from)
-        )),
-        _ if data.lower_rank_from_angle.is_some() => data.lower_rank_from_angle.map(|from| {
-            format!(
-                "one row is redundant from an angle tolerance of {from:.1e} rad on (`--angle-tolerance {from:.1e}`)"
-            )
-        }),
-        (None, Some(here)) => Some(format!("this pose is {here:.1e} m from a singular one")),
-        (None, None) => None,
-    };
-    let sentences = [stated(data.tolerance, data.angle_tolerance), near];
+    let sentences = [
+        stated(data.tolerance, data.angle_tolerance),
+        data.nearness(),
+    ];
     let told = sentences.into_iter().flatten();
     told.map(|sentence| wrapped("  ", &sentence)).collect()
 }

@@ -179,7 +179,7 @@ fn first_minutes_numbers_are_those_of_closed_forms() {
     assert_eq!(output.status.code(), Some(1));
     let said = flat(&stderr(&output));
     assert!(
-        said.contains("at t = 0.732196 s the mechanism is in or passes"),
+        said.contains("at t = 0.732197 s drive `motor` cannot turn `A` beyond 353.6°"),
         "{said}"
     );
 }

@@ -100,7 +100,7 @@ fn a_pin_that_is_off_is_told_in_every_output() {
         "{text}"
     );
     // Rounding locks it: without what the pins are off it moves.
-    let locked = "warning: mobility 0 for the data as they are written, and 1 if lengths are known to 0.049 mm only";
+    let locked = "warning: mobility 0 for data as they are written, and 1 if lengths are known to 0.049 mm only";
     assert!(text.contains(locked), "{text}");
     assert!(!said(&["check", &right]).contains("lengths are known to"));
 

@@ -6,6 +6,7 @@ mod agreement;
 mod analyze;
 mod bad_input;
 mod book;
+mod causes;
 mod cold_start;
 mod console;
 mod diff;

@@ -317,7 +317,138 @@ fn an_angle_tolerance_changes_verdicts_without_a_length() {
         .collect::<Vec<_>>()
         .join(" ");
     assert!(
-        text.contains("one row is redundant from an angle tolerance of 9.9e-5 rad on (`--angle-tolerance 9.9e-5`)"),
+        text.contains("one row is redundant from an angle tolerance of 9.9e-5 rad on (`--angle-tolerance 3.0e-4` decides for it)"),
         "{text}"
     );
+}
+
+/// A lid on four hinges along x, the third of them `off` (m) beside the line of the others.
+fn hatch(off: f64) -> String {
+    let hinge = |(k, x): (usize, f64)| {
+        let y = if k == 2 { off } else { 0.0 };
+        format!(
+            "[[joint]]\nname = \"hinge {}\"\ntype = \"revolute\"\nbodies = [\"ground\", \"lid\"]\nat = [{x}, {y}, 0.0]\naxis = [1, 0, 0]\n",
+            k + 1
+        )
+    };
+    let hinges = [-0.4, -0.15, 0.15, 0.4].into_iter().enumerate().map(hinge);
+    format!(
+        "[scene]\nname = \"hatch\"\nspace = \"spatial\"\ngravity = [0, 0, -9.81]\n[[body]]\nname = \"lid\"\nmass = 18.0\n\
+         inertia = [0.7, 1.2, 1.9]\nposition = [0.0, 0.35, 0.1]\n{}[simulate]\nt_end = 0.1\n",
+        hinges.collect::<String>()
+    )
+}
+
+/// Half a millimetre locks the lid as it is written; within a millimetre it turns, whatever is
+/// asked. Its weight, less its acceleration, is on the hinges.
+#[test]
+fn what_a_tolerance_has_freed_is_moved_shared_out_and_not_advised_again() {
+    let scene = hatch(5e-4);
+    let words = |arguments: &[&str]| {
+        let output = with_scene(arguments, &scene);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stdout(&output)
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    let locked = words(&["check", "-"]);
+    assert!(
+        locked.contains("mobility 0 for data as they are written, and 1 if lengths are known to"),
+        "{locked}"
+    );
+    let advised = locked
+        .split("`tolerance = ")
+        .nth(1)
+        .and_then(|x| x.split('`').next());
+    let advised = advised.expect("a length").to_owned();
+    for tolerance in ["1e-3", &advised] {
+        let free = words(&["check", "-", "--tolerance", tolerance]);
+        assert!(
+            free.contains("mobility 1") && !free.contains("warning"),
+            "{free}"
+        );
+    }
+    let sum = ["Fy", "Fz"].map(|c| {
+        let terms: Vec<String> = (1..5).map(|k| format!("hinge {k}.{c}")).collect();
+        terms.join(" + ")
+    });
+    let arguments = [
+        "analyze",
+        "-",
+        "--json",
+        "--tolerance",
+        "1e-3",
+        "--choose",
+        "minimum-norm",
+    ];
+    let asked = [
+        &arguments[..],
+        &["--combine", &sum[0], "--combine", &sum[1]],
+    ]
+    .concat();
+    let output = with_scene(&asked, &scene);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let d: Value = serde_json::from_str(&stdout(&output)).expect("one document");
+    assert_eq!((&d["redundancy"], &d["mobility"]), (&json!(15), &json!(1)));
+    // About the line of the hinges: J = 0.7 + 18·(0.35² + 0.1²), M = 18·9.81·0.35.
+    let alpha = -18.0 * 9.81 * 0.35 / (0.7 + 18.0 * (0.35_f64.powi(2) + 0.01));
+    let acceleration = [-0.1 * alpha, 0.35 * alpha];
+    // The reaction on the ground.
+    let expected = [-18.0 * acceleration[0], -18.0 * (9.81 + acceleration[1])];
+    for (k, expected) in expected.into_iter().enumerate() {
+        let values = [
+            &d["groups"][k]["values"][0]["value"],
+            &d["choices"][0]["groups"][k]["components"][0]["value"],
+        ];
+        for value in values {
+            let value = value
+                .as_f64()
+                .unwrap_or_else(|| panic!("{:#}", d["groups"]));
+            // Arms are off by up to half a millimetre of a tenth of a metre.
+            assert!(
+                (value - expected).abs() < 1e-2 * expected.abs(),
+                "{value} {expected}"
+            );
+        }
+    }
+    // What a choice leaves out is as many rows as the run drops.
+    let dropped: Vec<String> = d["dropped_rows"]
+        .as_array()
+        .expect("rows")
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    let dropped = dropped.join(",");
+    let drop = format!("drop:{dropped}");
+    words(&["analyze", "-", "--tolerance", "1e-3", "--choose", &drop]);
+    let verdicts = |more: &[&str]| {
+        let output = with_scene(
+            &[&["analyze", "-", "--json", "--tolerance", "1e-3"], more].concat(),
+            &scene,
+        );
+        let d: Value = serde_json::from_str(&stdout(&output)).expect("one document");
+        let all = d["reactions"].as_array().expect("a list").iter();
+        all.map(|r| {
+            r["components"]
+                .as_array()
+                .expect("a list")
+                .iter()
+                .map(|c| c["verdict"].clone())
+                .collect::<Vec<_>>()
+        })
+        .collect::<Vec<_>>()
+    };
+    assert_eq!(verdicts(&[]), verdicts(&["--drop", &dropped]));
+    let folder = Folder::new("hatch");
+    words(&[
+        "simulate",
+        "-",
+        "--tolerance",
+        "1e-3",
+        "--drop",
+        &dropped,
+        "--out",
+        folder.text(),
+    ]);
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{Folder, ROBOT, pfaff, stderr, stdout};
+use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
 const CRANKS: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
@@ -178,4 +178,75 @@ fn nothing_that_varies_is_refused_with_what_to_write() {
     ]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("need 1 to 100000"));
+}
+
+/// A boom on a pin that two equal cylinders hold side by side: how they share the load is a choice,
+/// and so is what a cylinder that is a little askew pushes sideways. An arm beyond them is not
+/// concerned.
+#[test]
+fn ranges_of_a_choice_are_not_given() {
+    let scene = r#"
+scene = { name = "boom", space = "spatial", gravity = [0.0, -9.81, 0.0] }
+body = [
+    { name = "boom", mass = 1000.0, inertia = [100.0, 900.0, 900.0], position = [1.0, 1.0, 0.0] },
+    { name = "arm", mass = 500.0, inertia = [50.0, 300.0, 300.0], position = [3.0, 2.0, 0.0] },
+]
+joint = [
+    { name = "pin", type = "revolute", bodies = ["ground", "boom"], at = [0.0, 0.0, 0.0], axis = [0, 0, 1] },
+    { name = "elbow", type = "fixed", bodies = ["boom", "arm"], at = [2.0, 2.0, 0.0] },
+    { name = "left", type = "distance", bodies = ["ground", "boom"], at = [[1.0, -0.5, 0.4], [1.5, 1.0, 0.4]] },
+    { name = "right", type = "distance", bodies = ["ground", "boom"], at = [[1.0, -0.5, -0.4], [1.5, 1.0, -0.4]] },
+]
+"#;
+    let arguments = ["tolerance", "-", "--tolerance", "1e-3", "--runs", "40"];
+    let output = with_scene(&[&arguments[..], &["--json"]].concat(), scene);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let d: Value = serde_json::from_str(&stdout(&output)).expect("one document");
+    let value = |reaction: &str, name: &str| {
+        let all = d["reactions"].as_array().expect("a list").iter();
+        let mut of_joint = all.filter(|r| r["name"] == reaction);
+        let values = &of_joint.next().expect("the joint")["values"];
+        let mut own = values
+            .as_array()
+            .expect("a list")
+            .iter()
+            .filter(|v| v["name"] == name);
+        own.next().unwrap_or_else(|| panic!("{values:#}")).clone()
+    };
+    // Symmetry: neither cylinder is favoured, along no axis.
+    for component in ["|F|", "Fx", "Fy", "Fz"] {
+        for cylinder in ["left", "right"] {
+            let found = value(cylinder, component);
+            assert_eq!(
+                found["range"],
+                Value::Null,
+                "{cylinder} {component}: {found:#}"
+            );
+            assert_eq!(
+                found["verdict"], "not_unique",
+                "{cylinder} {component}: {found:#}"
+            );
+        }
+    }
+    // As described nothing acts along z; askew, the share of a cylinder does.
+    assert_eq!(value("left", "Fz")["unique"], true);
+    let reason = &value("left", "Fz")["reason"];
+    assert!(
+        reason.as_str().is_some_and(|r| r.contains("share loads")),
+        "{reason}"
+    );
+    // The weight of the arm: the elbow only turns with the pose.
+    let weight = value("elbow", "Fy");
+    assert_eq!(weight["verdict"], "unique");
+    let [least, greatest] =
+        ["least", "greatest"].map(|end| weight["range"][end].as_f64().expect("a number"));
+    assert!(
+        least <= greatest && (least.abs() - 4905.0).abs() < 5.0 && (greatest - least) < 5.0,
+        "{weight:#}"
+    );
+    let text = flat(&stdout(&with_scene(&arguments, scene)));
+    assert!(
+        text.contains("not unique in any sample, so no range: `left`, `right`"),
+        "{text}"
+    );
 }

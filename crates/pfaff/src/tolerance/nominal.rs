@@ -4,7 +4,7 @@
 use model::start::KeepLevel;
 use model::{ConstraintId, DataBlock, DataUnit, Mechanism, System};
 use rank::Doubt;
-use solvability::{Configuration, RowDecision, Verdict, rows_of_rank};
+use solvability::{Configuration, RowDecision, rows_of_rank};
 
 use super::error::ToleranceError;
 use super::quantity::Quantity;
@@ -67,8 +67,8 @@ pub(super) struct Nominal {
     pub(super) missing: Vec<usize>,
     pub(super) reactions: Vec<NominalReaction>,
     pub(super) quantities: Vec<Quantity>,
-    /// Whether each quantity is unique as the described mechanism is read.
-    pub(super) unique: Vec<bool>,
+    /// The verdict on each quantity as the described mechanism is read.
+    pub(super) verdicts: Vec<&'static str>,
 }
 
 impl Nominal {
@@ -96,7 +96,7 @@ impl Nominal {
             Some(doubt) => lower_rank(mechanism, &s, &state.q, doubt, prepared)?,
         };
         let quantities = Quantity::all(mechanism);
-        let mut unique = vec![false; quantities.len()];
+        let mut verdicts = vec!["undecided"; quantities.len()];
         let mut reactions: Vec<NominalReaction> = layout
             .groups
             .iter()
@@ -118,16 +118,8 @@ impl Nominal {
             if let Some(decision) = found.analysis.whole() {
                 let configuration = Configuration::new(mechanism, t, &state.q, &decision)
                     .map_err(StudyError::from)?;
-                let judge = |id, name| {
-                    let form = configuration.reactions().component(id, name)?;
-                    configuration.judge(&form)
-                };
-                for (unique, quantity) in unique.iter_mut().zip(&quantities) {
-                    *unique = true;
-                    for name in quantity.depends_on(mechanism) {
-                        let judged = judge(quantity.id, name).map_err(StudyError::from)?;
-                        *unique &= judged.verdict == Verdict::Unique;
-                    }
+                for (verdict, quantity) in verdicts.iter_mut().zip(&quantities) {
+                    *verdict = quantity.verdict(mechanism, &configuration, 0.0);
                 }
             }
         }
@@ -156,7 +148,7 @@ impl Nominal {
             position_kept,
             reactions,
             quantities,
-            unique,
+            verdicts,
             base: Base {
                 q: state.q,
                 v: state.v,
@@ -257,12 +249,17 @@ impl Nominal {
         })
     }
 
+    /// Whether a quantity is unique as described.
+    pub(super) fn is_unique(&self, quantity: usize) -> bool {
+        self.verdicts[quantity] == "unique"
+    }
+
     /// About how many numbers a sample keeps.
     pub(super) fn numbers_of_sample(&self) -> usize {
         let observed = self.mechanism.frames().observed();
         let places = 2 * self.mechanism.bodies().len() + 3 * observed.markers.len();
         // A verdict is a pointer and a length.
-        let of_reactions = 2 * self.quantities.len() + 2 * self.reactions.len();
+        let of_reactions = 4 * self.quantities.len() + 2 * self.reactions.len();
         // And the lists themselves.
         of_reactions + places + self.missing.len() + observed.measures.len() + 32
     }

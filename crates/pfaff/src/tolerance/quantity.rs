@@ -2,6 +2,7 @@
 
 use linalg::kernels::norm;
 use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
+use solvability::Configuration;
 
 /// A number of a reaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +24,20 @@ pub(super) struct Quantity {
     pub(super) kind: Kind,
     pub(super) name: &'static str,
     pub(super) unit: &'static str,
+}
+
+/// The verdict on two numbers together.
+pub(super) fn worse(one: &'static str, other: &'static str) -> &'static str {
+    let severity = |word: &str| match word {
+        "unique" => 0,
+        "not_unique" => 2,
+        _ => 1,
+    };
+    if severity(other) > severity(one) {
+        other
+    } else {
+        one
+    }
 }
 
 impl Quantity {
@@ -82,8 +97,30 @@ impl Quantity {
         }
     }
 
+    /// What a configuration says of it: the worst of the components on which it depends. A margin
+    /// up to `within` counts as zero.
+    pub(super) fn verdict(
+        &self,
+        mechanism: &Mechanism,
+        at: &Configuration<'_>,
+        within: f64,
+    ) -> &'static str {
+        let judged = self.depends_on(mechanism).into_iter().map(|name| {
+            let form = at.reactions().component(self.id, name);
+            let judged = form.and_then(|form| at.judge(&form));
+            judged.map_or("undecided", |judged| {
+                if judged.margin <= within {
+                    "unique"
+                } else {
+                    judged.verdict.word()
+                }
+            })
+        });
+        judged.fold("unique", worse)
+    }
+
     /// The components on which it depends, by name.
-    pub(super) fn depends_on(&self, mechanism: &Mechanism) -> Vec<&'static str> {
+    fn depends_on(&self, mechanism: &Mechanism) -> Vec<&'static str> {
         let group = &mechanism.layout().groups[self.id.0];
         let space = group.space;
         let among = |range: std::ops::Range<usize>| {

@@ -10,11 +10,13 @@ use linalg::{KeptRowSaddle, Matrix};
 use model::start::requirement;
 use model::{Level, Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
-use solvability::{Configuration, Equations, RowTerms, Verdict};
+use solvability::{Configuration, Equations, RowTerms};
 
 use super::draw::Stream;
 use super::failed::Failed;
+use super::limits::SHARED;
 use super::nominal::{Base, Displaced, Nominal};
+use super::quantity::Quantity;
 use super::vary::Varied;
 
 /// A pose that is farther from the described one than this share of the size of the mechanism, or
@@ -58,7 +60,10 @@ pub struct Assembled {
     pub rank: Option<usize>,
     /// The verdict on each joint and drive with exact numbers.
     pub verdicts: Vec<&'static str>,
-    /// The numbers of reactions on the kept rows.
+    /// The verdict on each number of a reaction, with the dropped rows as redundant as they are
+    /// described: what depends on how they share loads is not unique, however little it is.
+    pub of_kept: Vec<&'static str>,
+    /// The numbers of reactions on the kept rows, NaN where they are not unique.
     pub kept: Vec<f64>,
     /// The same with exact numbers, NaN where they are not unique or where nothing can be said.
     pub exact: Vec<f64>,
@@ -117,12 +122,19 @@ impl Nominal {
             .map_err(|e| Failed::new("the rank cannot be decided", e))?;
         let (verdicts, exact) =
             self.with_exact_numbers(mechanism, (&s, &q, &v), &decision, &lambda);
-        let kept = self.numbers_of(mechanism, &s, &lambda);
+        let of_kept = self.on_kept_rows(mechanism, &s, &q);
+        let numbers = self.numbers_of(mechanism, &s, &lambda).into_iter();
+        let kept = numbers.zip(&of_kept).map(|(x, verdict)| match *verdict {
+            "unique" => x,
+            _ => f64::NAN,
+        });
+        let kept = kept.collect();
         let frames = mechanism.frames();
         let observed = frames.observed();
         Ok(Assembled {
             rank: (decision.status == RankStatus::Decided).then_some(decision.rank),
             verdicts,
+            of_kept,
             kept,
             exact,
             misfits,
@@ -269,6 +281,27 @@ impl Nominal {
         Ok(Instant { v, lambda })
     }
 
+    /// The verdicts on the numbers with the redundancy as it is described. What dropped rows miss
+    /// does not make them independent, and what they share in is not determined: a component that
+    /// is zero as described, and that of one of them where it is askew, is theirs alone.
+    fn on_kept_rows(&self, mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Vec<&'static str> {
+        let rows = mechanism.layout().rows();
+        if self.kept.len() == rows {
+            return vec!["unique"; self.quantities.len()];
+        }
+        let dropped: Vec<usize> = (0..rows)
+            .filter(|i| self.kept.binary_search(i).is_err())
+            .collect();
+        let of_rank = (rows, self.kept.len());
+        let decision = solvability::decide_of_rank(mechanism, s, q, of_rank, Some(&dropped)).ok();
+        let at = decision.and_then(|d| Configuration::new(mechanism, self.t, q, &d).ok());
+        let verdict = |quantity: &Quantity| match &at {
+            Some(at) => quantity.verdict(mechanism, at, SHARED),
+            None => "undecided",
+        };
+        self.quantities.iter().map(verdict).collect()
+    }
+
     /// The verdicts with exact numbers at this pose, and the numbers that are unique with them.
     fn with_exact_numbers(
         &self,
@@ -293,14 +326,8 @@ impl Nominal {
         let Ok(configuration) = Configuration::new(mechanism, self.t, q, decision) else {
             return (vec!["undecided"; groups], vec![f64::NAN; values.len()]);
         };
-        let is_unique = |quantity: &super::quantity::Quantity| {
-            let names = quantity.depends_on(mechanism);
-            names.into_iter().all(|name| {
-                let form = configuration.reactions().component(quantity.id, name);
-                let judged = form.and_then(|form| configuration.judge(&form));
-                judged.is_ok_and(|judged| judged.verdict == Verdict::Unique)
-            })
-        };
+        let is_unique =
+            |quantity: &Quantity| quantity.verdict(mechanism, &configuration, 0.0) == "unique";
         let values = (self.quantities.iter().zip(values))
             .map(|(quantity, value)| if is_unique(quantity) { value } else { f64::NAN });
         let values = values.collect();
@@ -352,8 +379,7 @@ impl Nominal {
         let all: Vec<_> = ids
             .map(|id| reactions.reaction_in(&mut block, id, lambda))
             .collect();
-        let value =
-            |quantity: &super::quantity::Quantity| quantity.of_reaction(space, &all[quantity.id.0]);
+        let value = |quantity: &Quantity| quantity.of_reaction(space, &all[quantity.id.0]);
         self.quantities.iter().map(value).collect()
     }
 

@@ -13,7 +13,7 @@ use report::documents::{
 
 use super::ToleranceOptions;
 use super::nominal::{Nominal, Reading};
-use super::quantity::Quantity;
+use super::quantity::{Quantity, worse};
 use super::sample::{Assembled, Sample};
 use super::vary::Variation;
 
@@ -206,7 +206,6 @@ impl Nominal {
                 let told = Told {
                     name: &reaction.name,
                     verdict: reaction.verdict,
-                    counts: verdicts,
                     samples: good.len() as u64,
                     within,
                 };
@@ -224,6 +223,15 @@ impl Nominal {
             .collect()
     }
 
+    /// The value of a number in a sample, NaN if the sample does not determine it.
+    fn value(&self, k: usize, sample: &Assembled) -> f64 {
+        if self.is_unique(k) {
+            sample.kept[k]
+        } else {
+            sample.exact[k]
+        }
+    }
+
     /// A number of a reaction in all samples.
     fn quantity(
         &self,
@@ -232,20 +240,40 @@ impl Nominal {
         (good, described): (&[(u64, &Assembled)], Option<&Assembled>),
         rounding: f64,
     ) -> QuantityRangeDocument {
-        let unique = self.unique[k];
+        let unique = self.is_unique(k);
         // A sum that cancels is zero, not its rounding.
         let clean = |x: f64| if x.abs() <= rounding { 0.0 } else { x };
-        let value = |s: &Assembled| clean(if unique { s.kept[k] } else { s.exact[k] });
-        let range = if unique || !self.is_decided() {
-            let told = described.map(value).filter(|x| x.is_finite());
-            RangeDocument::of(good.iter().map(|(_, s)| value(s)), told)
-        } else {
-            RangeDocument::of(good.iter().map(|(_, s)| value(s)), None)
+        let value = |s: &Assembled| clean(self.value(k, s));
+        let told = described.filter(|_| unique || !self.is_decided());
+        let told = told.map(value).filter(|x| x.is_finite());
+        let values: Vec<f64> = good.iter().map(|(_, s)| value(s)).collect();
+        let determined = values.iter().filter(|x| x.is_finite()).count();
+        // A range of some samples is that of a choice among them.
+        let is_whole = determined == values.len();
+        let range = is_whole.then(|| RangeDocument::of(values, told)).flatten();
+        let of_samples = good.iter().map(|(_, s)| s.of_kept[k]);
+        let reason = match &range {
+            Some(_) => None,
+            None if good.is_empty() => Some(NO_SAMPLE),
+            None if unique => Some(SHARED_IN_SAMPLES),
+            None if determined > 0 => Some(SOME_SAMPLES),
+            None if good
+                .iter()
+                .all(|(_, s)| s.verdicts[quantity.id.0] != "unique") =>
+            {
+                Some(NEVER)
+            }
+            None => Some(CANNOT_MOVE),
         };
         QuantityRangeDocument {
             name: quantity.name,
             unit: quantity.unit,
             unique,
+            verdict: match (unique, reason) {
+                (true, _) => of_samples.fold("unique", worse),
+                (false, _) => self.verdicts[k],
+            },
+            reason,
             reading: match (&range, unique) {
                 (None, _) => "none",
                 (Some(_), true) => "kept_rows",
@@ -335,9 +363,9 @@ impl Nominal {
         }
         for (id, reaction) in self.reactions.iter().enumerate() {
             columns.push(format!("{}.verdict", reaction.name));
-            let own = self.quantities.iter().zip(&self.unique);
-            for (quantity, unique) in own.filter(|(q, _)| q.id.0 == id) {
-                let exact = if *unique { "" } else { ".exact" };
+            let own = self.quantities.iter().enumerate();
+            for (k, quantity) in own.filter(|(_, q)| q.id.0 == id) {
+                let exact = if self.is_unique(k) { "" } else { ".exact" };
                 let name = quantity.name.replace('|', "");
                 columns.push(format!("{}.{name}{exact}", reaction.name));
             }
@@ -379,12 +407,7 @@ impl Nominal {
             row.push((*verdict).to_owned());
             let own = self.quantities.iter().enumerate();
             for (k, _) in own.filter(|(_, q)| q.id.0 == id) {
-                let value = if self.unique[k] {
-                    found.kept[k]
-                } else {
-                    found.exact[k]
-                };
-                row.push(value.to_string());
+                row.push(self.value(k, found).to_string());
             }
         }
         let axes = self.mechanism.space().n_translations();
@@ -432,11 +455,18 @@ fn failures(samples: &[Sample]) -> Vec<FailureDocument> {
     all
 }
 
+/// Why a number has no range.
+const NO_SAMPLE: &str = "no sample was assembled";
+const NEVER: &str = "not unique in any sample";
+const SOME_SAMPLES: &str = "exact numbers determine it in some samples only";
+const SHARED_IN_SAMPLES: &str =
+    "unique as described, but in samples it depends on how redundant rows share loads";
+const CANNOT_MOVE: &str = "rigid and without play or slip the mechanism could not move as it does";
+
 /// What the sentence about a reaction needs besides its range.
 struct Told<'a> {
     name: &'a str,
     verdict: &'a str,
-    counts: VerdictCounts,
     samples: u64,
     within: &'a str,
 }
@@ -449,16 +479,8 @@ impl Told<'_> {
             return format!("`{name}` has no reaction");
         };
         let Some(range) = &value.range else {
-            return match self.counts {
-                _ if samples == 0 => format!("`{name}`: no sample was assembled"),
-                VerdictCounts { unique: 0, .. } => {
-                    format!("`{name}` is not unique in any sample: no range")
-                }
-                _ => format!(
-                    "`{name}` is {}; rigid and without play or slip the mechanism could not move as it does: no range",
-                    self.verdict.replace('_', " ")
-                ),
-            };
+            let reason = value.reason.unwrap_or(NEVER);
+            return format!("`{name}` ({}): {reason}, so no range", value.name);
         };
         let unit = value.unit;
         let (least, greatest) = (digits(range.least), digits(range.greatest));

@@ -54,6 +54,14 @@ impl RankDecision {
         certificate.is_some_and(|c| c.has_tolerance)
     }
 
+    /// Whether rows are redundant within a stated tolerance only: other data within it have a
+    /// higher rank.
+    #[must_use]
+    pub fn is_within_tolerance(&self) -> bool {
+        let certificate = self.evidence.certificate.as_ref();
+        certificate.is_some_and(|c| c.grounds == Grounds::WithinTolerance)
+    }
+
     /// Whether the entries of the matrix are exact, so that zeros of T are exact as well. They are
     /// not if the rank is that of other data within what these are known to.
     #[must_use]

@@ -3,9 +3,9 @@
 //! A list D of dropped rows is admissible iff `|D| = p` and the other rows have full rank r;
 //! equivalently the rows D of a left null space basis Z form a nonsingular block.
 
-use super::{RankDecision, RankError, Uncertainty, read, required};
+use super::{RankDecision, RankError, Reading, Uncertainty, read, required};
 use crate::strong_basis::{Basis, complement};
-use linalg::{Matrix, RowBasis, singular_values};
+use linalg::{Matrix, RowBasis, Scaling, singular_values};
 
 /// Reason why a choice of rows is not admissible.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -100,6 +100,37 @@ pub fn dropping_of_rank<'a>(
     decide_partition(c, uncertainty.into(), kept, Some(rank))
 }
 
+/// A decision on C with other dropped rows: rank, scaling and evidence stay, and `|T̃_ji| ≤ 2` is
+/// not guaranteed.
+///
+/// ```
+/// use linalg::Matrix;
+/// use rank::{decide, with_dropped};
+/// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [0.0, 3.0]]);
+/// let decision = decide(&c, 0.0)?;
+/// let other = with_dropped(&decision, &c, &[1])?;
+/// assert_eq!((other.rank, other.kept), (2, vec![0, 2]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`decide_dropping`], with the rank of the decision.
+pub fn with_dropped(
+    decision: &RankDecision,
+    c: &Matrix,
+    dropped: &[usize],
+) -> Result<RankDecision, KeptRowsError> {
+    let dropped = ascending(dropped, c.nrows())?;
+    let kept = complement(c.nrows(), &dropped);
+    let reading = Reading {
+        rank: decision.rank,
+        evidence: decision.evidence.clone(),
+        status: decision.status,
+    };
+    let scaled = decision.scaling.apply(c);
+    on_rows((decision.scaling.clone(), &scaled, reading), kept)
+}
+
 /// Like [`decide`](super::decide), with given kept rows; `|T̃_ji| ≤ 2` is then not guaranteed.
 ///
 /// # Errors
@@ -124,12 +155,21 @@ fn decide_partition(
         Some(rank) => reading.of_rank(rank),
         None => reading,
     };
+    on_rows((scaling, &scaled, reading), kept)
+}
+
+/// The decision on these kept rows of an equilibrated matrix.
+fn on_rows(
+    (scaling, scaled, reading): (Scaling, &Matrix, Reading),
+    kept: Vec<usize>,
+) -> Result<RankDecision, KeptRowsError> {
+    let rows = scaled.nrows();
     if kept.len() != reading.rank {
         return Err(KeptRowsError::WrongCount {
-            dropped: c.nrows() - kept.len(),
+            dropped: rows - kept.len(),
             kept: kept.len(),
             rank: reading.rank,
-            rows: c.nrows(),
+            rows,
         });
     }
     let required = required(reading.evidence.tolerance);
@@ -141,10 +181,10 @@ fn decide_partition(
             required,
         });
     }
-    let basis = if kept.len() == c.nrows() {
-        Basis::whole(c.nrows())
+    let basis = if kept.len() == rows {
+        Basis::whole(rows)
     } else {
-        Basis::of(&RowBasis::of_rows(&scaled, kept))
+        Basis::of(&RowBasis::of_rows(scaled, kept))
     };
     Ok(reading.with_basis(scaling, basis))
 }

@@ -174,11 +174,17 @@ pub struct QuantityRangeDocument {
     pub unit: &'static str,
     /// Whether it is unique as described.
     pub unique: bool,
-    /// `kept_rows`: the redundancy stays as it is described, and the number is unique there.
-    /// `exact`: not unique as described; all rows count with exact numbers, rigid and without play,
-    /// in the samples in which they determine it. `none`: no sample determines it.
+    /// The verdict on it: as described, and if it is unique there, the worst of all samples with
+    /// the redundancy as it is described.
+    pub verdict: &'static str,
+    /// `kept_rows`: the redundancy stays as it is described, and the number is unique there in all
+    /// samples. `exact`: not unique as described; all rows count with exact numbers, rigid and
+    /// without play, and determine it in all samples. `none`: some sample does not determine it.
     pub reading: &'static str,
-    /// Its values; `null` if no sample determines it.
+    /// Why it has no range; absent if it has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<&'static str>,
+    /// Its values; `null` unless all samples determine it.
     pub range: Option<RangeDocument>,
 }
 
@@ -312,33 +318,30 @@ impl ToleranceDocument {
         all
     }
 
-    /// Reactions without a range, in sentences: those that are not unique in any sample together.
+    /// Reactions without a range, in sentences: those with the same reason together.
     #[must_use]
     pub fn without_range(&self) -> Vec<String> {
-        let has_none =
-            |r: &&ReactionRangeDocument| r.values.first().is_none_or(|v| v.range.is_none());
-        let without = || self.reactions.iter().filter(has_none);
+        let mut by_reason: Vec<(&str, Vec<String>)> = Vec::new();
+        for reaction in &self.reactions {
+            let first = reaction.values.first();
+            let Some(reason) = first.and_then(|value| value.reason) else {
+                continue;
+            };
+            let name = format!("`{}`", reaction.name);
+            match by_reason.iter_mut().find(|(own, _)| *own == reason) {
+                Some((_, names)) => names.push(name),
+                None => by_reason.push((reason, vec![name])),
+            }
+        }
         if self.assembled == 0 {
             return Vec::new();
         }
-        let names: Vec<String> = without()
-            .filter(|r| r.verdicts.unique == 0)
-            .map(|r| format!("`{}`", r.name))
-            .collect();
-        let mut all = Vec::new();
-        if !names.is_empty() {
+        let told = by_reason.into_iter();
+        told.map(|(reason, names)| {
             let names = model::words::listed(&names);
-            all.push(format!("not unique in any sample, so no range: {names}"));
-        }
-        let stopped = without().filter(|r| r.verdicts.unique > 0);
-        let stopped: Vec<String> = stopped.map(|r| format!("`{}`", r.name)).collect();
-        if !stopped.is_empty() {
-            let names = model::words::listed(&stopped);
-            all.push(format!(
-                "no range, because rigid and without play or slip the mechanism could not move as it does: {names}"
-            ));
-        }
-        all
+            format!("{reason}, so no range: {names}")
+        })
+        .collect()
     }
 
     /// How the described mechanism is read.

@@ -244,7 +244,9 @@ impl RunReactionDocument {
             data: SensitivityDocument::of(sensitivities, at_start.id, mechanism.layout()),
             at_start: (&at_start.wrench).into(),
             components: match (run, found) {
-                (Some(run), Some(found)) => run.components(found, sensitivities, mechanism.layout()),
+                (Some(run), Some(found)) => {
+                    run.components(found, sensitivities, mechanism.layout())
+                }
                 _ => Named(Vec::new()),
             },
         }

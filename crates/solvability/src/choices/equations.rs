@@ -10,6 +10,7 @@ use model::{Level, Mechanism, Scratch, System};
 use rank::RankStatus;
 
 use super::ChoiceError;
+use crate::existence::may_miss;
 use crate::groups::{RequestError, check};
 use crate::parts::Extent;
 use crate::sparse::{blocks, rows_of};
@@ -325,8 +326,10 @@ fn sparse_solution(
     saddle.solve(&c, &scaled(force), &gamma, &mut x, &mut of_kept)?;
     let a = scaled(&x);
     let row = |i: usize| layout.row(s, i);
-    let terms = RowTerms::of(mechanism, s, v, size);
-    agree(rows, row, &a, (&s.gamma, &terms), |_| Ok((0.0, 0.0)))?;
+    if !may_miss(mechanism) {
+        let terms = RowTerms::of(mechanism, s, v, size);
+        agree(rows, row, &a, (&s.gamma, &terms), |_| Ok((0.0, 0.0)))?;
+    }
     Ok(Solution {
         acceleration: a,
         multipliers: on_all_rows(kept, of_kept, layout.rows()),

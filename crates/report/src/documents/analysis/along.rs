@@ -44,7 +44,7 @@ pub struct GenericVerdictsDocument {
     pub reactions: Vec<NamedVerdictDocument>,
 }
 
-/// The verdict of a joint or drive.
+/// The verdict of a joint or drive, or of one of its components.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct NamedVerdictDocument {
@@ -53,6 +53,9 @@ pub struct NamedVerdictDocument {
     /// Its verdict.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
+    /// The verdicts of the components of a joint or drive, in ground axes; of a component none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub components: Vec<NamedVerdictDocument>,
 }
 
 /// A stretch of time with other verdicts.
@@ -140,6 +143,13 @@ impl AlongDocument {
         let reactions = analysis.reactions.iter().map(|r| NamedVerdictDocument {
             name: r.name.clone(),
             verdict: (&r.wrench).into(),
+            components: (r.components.iter())
+                .map(|c| NamedVerdictDocument {
+                    name: c.name.to_owned(),
+                    verdict: (&c.judgement).into(),
+                    components: Vec::new(),
+                })
+                .collect(),
         });
         Self {
             to,

@@ -3,7 +3,7 @@
 
 use model::Tolerance;
 use model::words::length;
-use rank::Certificate;
+use rank::{BEYOND_DOUBT, Certificate, Grounds};
 use serde::Serialize;
 use solvability::Analysis;
 
@@ -27,10 +27,17 @@ pub struct DataDocument {
     /// The displacement of points that is necessary for a lower rank at this configuration (m;
     /// angles times the size of the mechanism). `None` if that is not close.
     pub lower_rank_here: Option<f64>,
-    /// Whether `lower_rank_from` is a small share of the size of its part: rounding of the data
-    /// may lock a motion that the mechanism is to have.
+    /// Whether the tolerance from which on a row is redundant is a small share of the size of a
+    /// part whose rank is still the higher one: rounding of the data may lock a motion that the
+    /// mechanism is to have.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub nearly_free: bool,
+    /// The least such tolerance (m).
+    #[serde(skip)]
+    free_from: Option<f64>,
+    /// Whether rows are redundant within the stated tolerance only.
+    #[serde(skip)]
+    is_within: bool,
 }
 
 /// Data that differ by less than this share of the size of a part are rounded: machines are
@@ -39,17 +46,49 @@ const ROUNDED: f64 = 1e-3;
 
 impl DataDocument {
     /// A warning of a motion that may be locked by the rounding of the data only; `mobility` is
-    /// that of the data as they are.
+    /// that of the data as they are. `None` where a stated tolerance has freed it already.
     #[must_use]
     pub fn warning(&self, mobility: usize) -> Option<String> {
-        let from = self.lower_rank_from.filter(|_| self.nearly_free)?;
+        let from = self.free_from?;
+        let enough = clearly_above(from);
+        let known = match self.tolerance {
+            None => "as they are written".to_owned(),
+            Some(tolerance) => format!("known to {}", length(tolerance)),
+        };
         Some(format!(
-            "mobility {mobility} for the data as they are written, and {} if lengths are known to {} only: one row is \
-             redundant then, and what it locks can move. If it is to move, write more digits or state `tolerance` \
-             (m) in [scene]; `pfaff analyze` names the joints",
+            "mobility {mobility} for data {known}, and {} if lengths are known to {} only: one row is redundant then, \
+             and what it locks can move. If it is to move, write more digits or state `tolerance = {enough:.1e}` (m) in \
+             [scene]; `pfaff analyze` names the joints",
             mobility + 1,
             length(from)
         ))
+    }
+
+    /// What one row needs to be redundant, in words, with an option that decides it.
+    #[must_use]
+    pub fn nearness(&self) -> Option<String> {
+        let option = |name: &str, from: f64| {
+            if self.is_within {
+                String::new()
+            } else {
+                format!(" (`--{name} {:.1e}` decides for it)", clearly_above(from))
+            }
+        };
+        if let Some(from) = self.lower_rank_from {
+            let option = option("tolerance", from);
+            return Some(format!(
+                "one row is redundant from a tolerance of {} on{option}",
+                length(from)
+            ));
+        }
+        if let Some(from) = self.lower_rank_from_angle {
+            let option = option("angle-tolerance", from);
+            return Some(format!(
+                "one row is redundant from an angle tolerance of {from:.1e} rad on{option}"
+            ));
+        }
+        let here = self.lower_rank_here?;
+        Some(format!("this pose is {here:.1e} m from a singular one"))
     }
 
     /// The document of an analysis.
@@ -74,6 +113,14 @@ impl DataDocument {
             Some(certificate.lower_rank_from? / size)
         };
         let by_lengths = known().filter(|c| !c.lower_rank_by_angles);
+        let is_within = |c: &Certificate| c.grounds == Grounds::WithinTolerance;
+        let free_from = |(size, certificate): (f64, Option<&Certificate>)| {
+            let certificate = certificate.filter(|c| !c.lower_rank_by_angles && !is_within(c))?;
+            certificate
+                .lower_rank_from
+                .filter(|from| *from <= ROUNDED * size)
+        };
+        let free_from = parts.clone().filter_map(free_from).reduce(f64::min);
         Self {
             tolerance: tolerance.length,
             angle_tolerance: angles.reduce(f64::max).or(tolerance.angle),
@@ -81,20 +128,24 @@ impl DataDocument {
                 .filter_map(|c| c.lower_rank_from)
                 .reduce(f64::min),
             lower_rank_from_angle: parts.clone().filter_map(by_angles).reduce(f64::min),
-            nearly_free: parts.clone().any(|(size, certificate)| {
-                let by_lengths = certificate.filter(|c| !c.lower_rank_by_angles);
-                let from = by_lengths.and_then(|c| c.lower_rank_from);
-                from.is_some_and(|from| from <= ROUNDED * size)
-            }),
+            nearly_free: free_from.is_some(),
+            free_from,
+            is_within: known().any(is_within),
             lower_rank_here: known().filter_map(|c| c.lower_rank_here).reduce(f64::min),
         }
     }
 }
 
+/// A tolerance that is clearly above the one from which on a row is redundant, with two digits:
+/// nearer to it the rank is undecided.
+fn clearly_above(from: f64) -> f64 {
+    let enough = BEYOND_DOUBT * from;
+    let digit = 10.0_f64.powf(enough.log10().floor() - 1.0);
+    ((enough / digit).floor() + 1.0) * digit
+}
+
 #[cfg(test)]
 mod tests {
-    use rank::Grounds;
-
     use super::*;
 
     /// A certificate that contains only these two lengths.
@@ -135,13 +186,27 @@ mod tests {
             lower_rank_from_angle: None,
             lower_rank_here: Some(1e-6),
             nearly_free: true,
+            free_from: Some(5e-5),
+            is_within: false,
         };
         assert_eq!(told, expected);
         let said = told.warning(2).expect("near");
         assert!(
-            said.starts_with("mobility 2 for the data as they are written, and 3 if lengths are known to 0.05 mm only"),
+            said.starts_with(
+                "mobility 2 for data known to 0.1 mm, and 3 if lengths are known to 0.05 mm only"
+            ),
             "{said}"
         );
+        assert!(said.contains("`tolerance = 1.6e-4`"), "{said}");
+        // A tolerance that has freed the row is not advised once more.
+        let freed = Certificate {
+            grounds: Grounds::WithinTolerance,
+            ..near.clone()
+        };
+        let told = DataDocument::of(drawing, [(4.0, Some(&freed))].into_iter());
+        assert_eq!((told.nearly_free, told.warning(2)), (false, None));
+        let said = told.nearness().expect("near");
+        assert_eq!(said, "one row is redundant from a tolerance of 0.05 mm on");
         let far = certificate(Some(5e-3), None);
         let told = DataDocument::of(Tolerance::default(), [(4.0, Some(&far))].into_iter());
         assert_eq!((told.nearly_free, told.warning(2)), (false, None));

@@ -1,0 +1,148 @@
+//! Places that drives cannot pass, from the lengths of triangles.
+
+use std::f64::consts::PI;
+
+use joints::TranslationalDisplacementDrive;
+use joints::{Direction, DistanceLengthDrive, Revolute, RevoluteAngleDrive, Translational};
+use model::start::assemble;
+use model::{Body, BodyRef, Description, Function, Mechanism, StartOptions, System};
+
+use super::*;
+
+const GROUND: BodyRef = BodyRef::Ground;
+
+/// A bar of 1 m from a pivot, whose end is at this angle.
+fn bar(d: &mut Description, foot: BodyRef, at: [f64; 2], angle: f64) -> ([f64; 2], BodyRef) {
+    let end = [at[0] + angle.cos(), at[1] + angle.sin()];
+    let position = [0.5 * (at[0] + end[0]), 0.5 * (at[1] + end[1])];
+    let name = format!("bar {}", d.bodies.len());
+    let bar = d.body(Body {
+        position,
+        angle,
+        ..Body::new(&name, 1.0, 0.1)
+    });
+    let [s_i, s_j] = [foot, bar].map(|b| d.local(b, at));
+    d.joint(
+        &format!("pivot of {name}"),
+        &[foot, bar],
+        Revolute { s_i, s_j },
+    );
+    (end, bar)
+}
+
+fn rate(rate: f64) -> Function {
+    Function::constant_rate(rate).expect("finite")
+}
+
+/// The limit that is found from the start, with velocities of the rows.
+fn limit(d: &Description) -> Option<DriveLimit> {
+    let mut mechanism = Mechanism::build(d).expect("builds");
+    let q = assemble(&mut mechanism, &StartOptions::default())
+        .expect("assembles")
+        .q;
+    let kept: Vec<usize> = (0..mechanism.layout().m).collect();
+    let given = vec![None; mechanism.layout().n_v];
+    let found =
+        model::start::consistent_velocity(&mechanism, &StartOptions::default(), &q, &given, &kept);
+    let v = found.expect("velocities").v;
+    drive_limit(&mechanism, &kept, (0.0, &q, &v))
+}
+
+/// The end of the bar is at most 3 m from a winch 2 m behind its pivot.
+#[test]
+fn a_winch_stops_where_its_bar_is_stretched() {
+    let stretched = |angle: f64, speed: f64| {
+        let mut d = Description::new("winch");
+        let (end, bar) = bar(&mut d, GROUND, [0.0; 2], angle);
+        let rope = DistanceLengthDrive::new([-2.0, 0.0], d.local(bar, end));
+        d.drive("winch", &[GROUND, bar], rope, rate(speed));
+        limit(&d)
+    };
+    let found = stretched(0.2, 0.1).expect("it is stretched at 3 m");
+    // From the cosine law of the triangle with sides of 2 m and 1 m.
+    let before = (5.0 + 4.0 * 0.2_f64.cos()).sqrt();
+    assert!(
+        (found.time - (3.0 - before) / 0.1).abs() < 1e-9,
+        "{found:?}"
+    );
+    let [winch] = &found.drives[..] else {
+        panic!("{found:?}")
+    };
+    assert!(
+        (winch.value.expect("a length") - 3.0).abs() < 1e-9,
+        "{winch:?}"
+    );
+    assert!(
+        found
+            .to_string()
+            .ends_with("beyond 3 m: there is no configuration"),
+        "{found}"
+    );
+    // Wound up, the end comes nearer; far from the stretched bar nothing is near.
+    assert_eq!(stretched(0.2, -0.1), None);
+    assert_eq!(stretched(1.5, 0.1), None);
+}
+
+/// Two motors carry the ends of a two-bar chain apart by way of sliders: 2 m is the most.
+#[test]
+fn two_drives_reach_as_far_as_the_arm() {
+    let mut d = Description::new("two sliders");
+    let apart = 2.0 * 0.1_f64.cos();
+    let sliders = [[0.0, 0.0], [apart, 0.0]].map(|position| {
+        let name = format!("slider {}", d.bodies.len());
+        let body = d.body(Body {
+            position,
+            ..Body::new(&name, 1.0, 0.1)
+        });
+        let s_i = position;
+        d.joint(
+            &format!("rail of {name}"),
+            &[GROUND, body],
+            Translational::new(s_i, [0.0; 2], Direction::X),
+        );
+        (body, s_i)
+    });
+    let (top, first) = bar(&mut d, sliders[0].0, [0.0, 0.0], 0.1);
+    let (_, second) = bar(&mut d, first, top, -0.1);
+    let [s_i, s_j] = [second, sliders[1].0].map(|b| d.local(b, [apart, 0.0]));
+    d.joint("end", &[second, sliders[1].0], Revolute { s_i, s_j });
+    for (k, (body, s_i)) in sliders.into_iter().enumerate() {
+        let drive = TranslationalDisplacementDrive::new(s_i, [0.0; 2], Direction::X);
+        let speed = [-0.1, 0.3][k];
+        d.drive(["left", "right"][k], &[GROUND, body], drive, rate(speed));
+    }
+    let found = limit(&d).expect("the chain is straight at 2 m");
+    assert!((found.time - (2.0 - apart) / 0.4).abs() < 1e-9, "{found:?}");
+    let names: Vec<&str> = found
+        .drives
+        .iter()
+        .map(|drive| drive.name.as_str())
+        .collect();
+    assert_eq!(names, ["left", "right"]);
+    assert!(
+        found
+            .to_string()
+            .contains("drives `left` and `right` cannot go on together"),
+        "{found}"
+    );
+}
+
+/// An arm of two bars that turns freely about its foot is straight at 2 m, at any angle; a crank
+/// that turns round has no such place.
+#[test]
+fn a_free_arm_reaches_as_far_as_it_is_long() {
+    let mut d = Description::new("arm");
+    let (elbow, upper) = bar(&mut d, GROUND, [0.0; 2], 0.7);
+    let (hand, lower) = bar(&mut d, upper, elbow, 0.5);
+    let reach = DistanceLengthDrive::new([0.0; 2], d.local(lower, hand));
+    d.drive("reach", &[GROUND, lower], reach, rate(0.1));
+    let found = limit(&d).expect("it is straight at 2 m");
+    let value = found.drives[0].value.expect("a length");
+    assert!((value - 2.0).abs() < 1e-9, "{value}");
+
+    let mut d = Description::new("crank");
+    let (_, crank) = bar(&mut d, GROUND, [0.0; 2], PI / 3.0);
+    let motor = RevoluteAngleDrive::new([0.0; 2], d.local(crank, [0.0; 2]));
+    d.drive("motor", &[GROUND, crank], motor, rate(1.0));
+    assert_eq!(limit(&d), None);
+}

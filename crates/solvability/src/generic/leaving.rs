@@ -1,0 +1,130 @@
+//! How a mechanism without its drives leaves a configuration, as far as second order says: the
+//! velocities that it excludes, and the tangents of branches. Velocities are without dimensions.
+
+use std::borrow::Cow;
+
+use linalg::{Matrix, PivotedQr};
+use model::{Mechanism, Places, System};
+use rank::RankDecision;
+
+use crate::pose::{decide, evaluated};
+use crate::second_order::{Continuation, blocked_velocities, second_order};
+
+/// The joints of a mechanism that constrain its configuration.
+pub(super) struct Leaving<'m> {
+    mechanism: Cow<'m, Mechanism>,
+    /// Their places in the mechanism; `None` if they are all of it.
+    places: Option<Places>,
+    n_v: usize,
+    /// Whether second order excludes velocities at the first configuration.
+    excludes: bool,
+}
+
+impl<'m> Leaving<'m> {
+    /// The joints of a mechanism with coordinates q at time t.
+    pub(super) fn new(mechanism: &'m Mechanism, t: f64, q: &[f64]) -> Self {
+        let layout = mechanism.layout();
+        let holds = |k: &usize| {
+            let group = &layout.groups[*k];
+            !group.is_drive() && !group.rows.holonomic.is_empty()
+        };
+        let groups: Vec<usize> = (0..layout.groups.len()).filter(holds).collect();
+        let (mechanism, places) = if groups.len() == layout.groups.len() {
+            (Cow::Borrowed(mechanism), None)
+        } else {
+            let part = mechanism.part_of_groups(&groups);
+            (Cow::Owned(part.mechanism), Some(part.places))
+        };
+        let mut own = Self {
+            mechanism,
+            places,
+            n_v: layout.n_v,
+            excludes: true,
+        };
+        own.excludes = !own.excluded((t, q)).is_empty();
+        own
+    }
+
+    /// Whether second order excludes velocities at the first configuration.
+    pub(super) fn excludes(&self) -> bool {
+        self.excludes
+    }
+
+    /// Of the free directions at a configuration, in rows and orthonormal, those that second order
+    /// does not exclude.
+    pub(super) fn possible(&self, free: Matrix, at: (f64, &[f64]), units: &[f64]) -> Matrix {
+        // What is excluded on a branch is so along all of it.
+        if !self.excludes || free.nrows() == 0 {
+            return free;
+        }
+        let excluded = self.excluded(at);
+        if excluded.is_empty() {
+            return free;
+        }
+        let excluded: Vec<Vec<f64>> = self.dimensionless(excluded, units);
+        let among = Matrix::from_fn(free.nrows(), excluded.len(), |i, j| {
+            let row = free.row(i).iter();
+            row.zip(&excluded[j]).map(|(a, b)| a * b).sum()
+        });
+        let left = excluded.len().min(free.nrows())..free.nrows();
+        let rest = PivotedQr::of_columns(&among).q_columns(left);
+        rest.transpose().product(&free)
+    }
+
+    /// Tangents of the branches that meet at a configuration; empty if second order does not tell
+    /// them apart.
+    pub(super) fn branches(&self, at: (f64, &[f64]), units: &[f64]) -> Vec<Vec<f64>> {
+        let found = self.decided(at).and_then(|(q, decision)| {
+            let n = self.mechanism.layout().n_v;
+            let (rest, regular) = (vec![0.0; n], Matrix::zeros(n, 0));
+            second_order(&self.mechanism, at.0, &q, &rest, &decision, &regular).ok()
+        });
+        match found {
+            Some(Continuation::Bifurcation { branches }) => self.dimensionless(branches, units),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Velocities of the joints that second order excludes.
+    fn excluded(&self, at: (f64, &[f64])) -> Vec<Vec<f64>> {
+        let found = self.decided(at).and_then(|(q, decision)| {
+            blocked_velocities(&self.mechanism, at.0, &q, &decision).ok()
+        });
+        found.unwrap_or_default()
+    }
+
+    /// The coordinates of the joints, and their rank; `None` where second order has nothing to say.
+    fn decided(&self, (t, q): (f64, &[f64])) -> Option<(Vec<f64>, RankDecision)> {
+        let layout = self.mechanism.layout();
+        if layout.h > 0 || layout.rheonomic {
+            return None;
+        }
+        let q: Vec<f64> = match &self.places {
+            None => q.to_vec(),
+            Some(places) => places.coordinates.iter().map(|&k| q[k]).collect(),
+        };
+        let s = evaluated(&self.mechanism, t, &q);
+        let decision = decide(&self.mechanism, &s, &q).ok()?;
+        let has_forms = decision.is_decided() && decision.redundancy > 0;
+        (has_forms && decision.rank < layout.n_v).then_some((q, decision))
+    }
+
+    /// Velocities of the joints as velocities of the mechanism.
+    fn dimensionless(&self, velocities: Vec<Vec<f64>>, units: &[f64]) -> Vec<Vec<f64>> {
+        let of_all = |own: Vec<f64>| {
+            let mut all = match &self.places {
+                None => own,
+                Some(places) => {
+                    let mut all = vec![0.0; self.n_v];
+                    for (&k, v) in places.velocities.iter().zip(own) {
+                        all[k] = v;
+                    }
+                    all
+                }
+            };
+            all.iter_mut().zip(units).for_each(|(v, unit)| *v /= unit);
+            all
+        };
+        velocities.into_iter().map(of_all).collect()
+    }
+}
