@@ -97,8 +97,9 @@ impl Quantity {
         }
     }
 
-    /// What a configuration says of it: the worst of the components on which it depends. A margin
-    /// up to `within` counts as zero.
+    /// What a configuration says of it: the worst of the components on which it depends. What a
+    /// choice changes by no more than the share `within` of the component itself counts as unique,
+    /// and only that, if it is above zero.
     pub(super) fn verdict(
         &self,
         mechanism: &Mechanism,
@@ -106,15 +107,17 @@ impl Quantity {
         within: f64,
     ) -> &'static str {
         let judged = self.depends_on(mechanism).into_iter().map(|name| {
-            let form = at.reactions().component(self.id, name);
-            let judged = form.and_then(|form| at.judge(&form));
-            judged.map_or("undecided", |judged| {
-                if judged.margin <= within {
-                    "unique"
-                } else {
-                    judged.verdict.word()
-                }
-            })
+            let Ok(form) = at.reactions().component(self.id, name) else {
+                return "undecided";
+            };
+            // Relative to the component: a small one of a reaction that is shared is shared, too.
+            let share = at.solvability().combination(form.coefficients());
+            match (at.judge(&form), share) {
+                (_, Ok(share)) if within > 0.0 && share.margin <= within => "unique",
+                (_, Ok(_)) if within > 0.0 => "not_unique",
+                (Ok(judged), _) => judged.verdict.word(),
+                (Err(_), _) => "undecided",
+            }
         });
         judged.fold("unique", worse)
     }
