@@ -1,0 +1,165 @@
+//! What the product calls determined on a run. Nothing here is a decision of the laboratory: it is
+//! the side that is examined.
+//!
+//! Between cuts of a run (events, breaks of functions of time) a component is `unique` if its
+//! verdict is at every state of the open interval, `not unique` if it is at one, else undecided.
+
+use model::{Known, Mechanism, System};
+use solvability::{Analysis, AnalysisError, Verdict, analyse_known};
+
+use super::forms::Form;
+use super::run::Row;
+
+/// A verdict in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Word {
+    /// Determined.
+    Unique,
+    /// Not decided.
+    Undecided,
+    /// A matter of choice.
+    NotUnique,
+}
+
+/// A component on a part of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// First time (s), which belongs to it.
+    pub from: f64,
+    /// Last time (s), which belongs to it only at the end of the run.
+    pub to: f64,
+    /// Its verdict.
+    pub word: Word,
+}
+
+/// The verdicts on one component along a run.
+#[derive(Clone, Debug)]
+pub struct OnRun {
+    /// From the first to the last time, without gaps.
+    pub stretches: Vec<Stretch>,
+    /// The largest sensitivity at the states that were examined, if it is known.
+    pub sensitivity: Option<f64>,
+}
+
+impl OnRun {
+    /// The stretch that contains a time: at a cut the one that begins there.
+    #[must_use]
+    pub fn at(&self, t: f64) -> Option<&Stretch> {
+        self.stretches.iter().rev().find(|s| s.from <= t)
+    }
+
+    /// Whether it is determined at a time.
+    #[must_use]
+    pub fn is_determined(&self, t: f64) -> bool {
+        self.at(t).is_some_and(|s| s.word == Word::Unique)
+    }
+
+    /// Whether it is sensitive to data.
+    #[must_use]
+    pub fn is_fragile(&self) -> bool {
+        self.sensitivity.is_some_and(|s| s > solvability::FRAGILE)
+    }
+}
+
+/// What is examined: verdicts on components along a run with these rows and cuts, integrated to a
+/// relative tolerance.
+pub type Judge =
+    dyn Fn(&Mechanism, &[Form], (&[Row], &[f64]), f64) -> Result<Vec<OnRun>, AnalysisError> + Sync;
+
+/// The verdicts of the product on all components along a run with these rows.
+///
+/// # Errors
+/// If a state cannot be analysed.
+pub fn verdicts_of_run(
+    mechanism: &Mechanism,
+    forms: &[Form],
+    (rows, cuts): (&[Row], &[f64]),
+    rtol: f64,
+) -> Result<Vec<OnRun>, AnalysisError> {
+    let ends = ends(rows, cuts);
+    let mut all: Vec<OnRun> = forms
+        .iter()
+        .map(|_| OnRun {
+            stretches: Vec::new(),
+            sensitivity: None,
+        })
+        .collect();
+    for piece in ends.windows(2) {
+        let inside = |row: &&Row| piece[0] < row.t && row.t < piece[1];
+        let mut states: Vec<&Row> = rows.iter().filter(inside).collect();
+        if states.is_empty() {
+            states.extend(rows.iter().find(|row| row.t == piece[0]));
+        }
+        let mut words = vec![Word::Unique; forms.len()];
+        let middle = states.len() / 2;
+        for (k, row) in states.iter().enumerate() {
+            let known = match row.t {
+                0.0 => Known::AsStored,
+                _ => Known::To(rtol),
+            };
+            let analysis = analyse_known(mechanism, row.t_before, &row.q, known)?;
+            for (word, form) in words.iter_mut().zip(forms) {
+                *word = (*word).max(word_of(&analysis, form));
+            }
+            if k == middle {
+                sensitivities(mechanism, &analysis, row, (forms, &mut all));
+            }
+        }
+        for (own, word) in all.iter_mut().zip(words) {
+            own.stretches.push(Stretch {
+                from: piece[0],
+                to: piece[1],
+                word,
+            });
+        }
+    }
+    Ok(all)
+}
+
+fn ends(rows: &[Row], cuts: &[f64]) -> Vec<f64> {
+    let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
+        return Vec::new();
+    };
+    let inside = |t: &&f64| first.t < **t && **t < last.t;
+    let mut ends = vec![first.t, last.t];
+    ends.extend(cuts.iter().filter(inside));
+    ends.sort_by(f64::total_cmp);
+    ends.dedup();
+    ends
+}
+
+/// The verdict of an analysis on a component.
+fn word_of(analysis: &Analysis, form: &Form) -> Word {
+    let reaction = &analysis.reactions[form.group];
+    if reaction.determines(form.name) {
+        return Word::Unique;
+    }
+    let own = reaction.components.iter().find(|c| c.name == form.name);
+    match &own.map_or(&reaction.wrench, |c| &c.judgement).verdict {
+        Verdict::Unique => Word::Unique,
+        Verdict::NotUnique => Word::NotUnique,
+        _ => Word::Undecided,
+    }
+}
+
+/// Takes the largest sensitivity of each component so far.
+fn sensitivities(
+    mechanism: &Mechanism,
+    analysis: &Analysis,
+    row: &Row,
+    (forms, all): (&[Form], &mut [OnRun]),
+) {
+    if mechanism.layout().rows() == 0 {
+        return;
+    }
+    let Ok(found) = analysis.sensitivities(mechanism, &row.q, &row.v) else {
+        return;
+    };
+    for (own, form) in all.iter_mut().zip(forms) {
+        let new = found.each[form.group].as_ref().map(|s| s.change);
+        own.sensitivity = match (own.sensitivity, new) {
+            (Some(a), Some(b)) => Some(a.max(b)),
+            (a, b) => a.or(b),
+        };
+    }
+}
