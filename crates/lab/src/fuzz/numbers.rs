@@ -19,6 +19,7 @@
 //! | [`forms`] | components of reactions as forms of the multipliers |
 //! | [`oracle`] | all solutions at a state |
 //! | [`sets`] | rows to drop, compliances, and the solutions that belong to them |
+//! | `decomposition` | singular values and vectors |
 //! | `newton`, `displaced` | data that are displaced one at a time |
 //! | [`moves`] | own steps |
 //! | `refusals` | reasons of refusals |
@@ -26,6 +27,7 @@
 //! | [`findings`] | kinds of disagreements, and counts |
 //! | [`tally`] | many mechanisms |
 
+mod decomposition;
 mod displaced;
 pub mod examine;
 pub mod findings;

@@ -10,11 +10,11 @@ use lab::fuzz::numbers::oracle::Instant;
 use lab::fuzz::numbers::run::{Row, prepared};
 use lab::fuzz::numbers::sets::{elastic, without};
 use lab::fuzz::numbers::tally::Tally;
-use lab::fuzz::numbers::verdicts::{OnRun, Word, verdicts_of_run};
+use lab::fuzz::numbers::verdicts::{AtState, Judge, OnRun, Product, Word};
 use lab::numbers::Numbers;
 use pfaff::AssembledScene;
-use pfaff::model::{ConstraintId, Registry, System};
-use pfaff::solvability::{Compliance, analyse};
+use pfaff::model::{ConstraintId, Mechanism, Registry, System};
+use pfaff::solvability::{AnalysisError, Compliance, analyse};
 
 /// A leaf of 20 kg on two hinges, 1.5 m apart; the mass centre is 0.4 m beside them.
 const DOOR: &str = r#"
@@ -192,27 +192,46 @@ fn kinds(findings: &Findings) -> Vec<Kind> {
     kinds
 }
 
+/// The product with other verdicts: `change` gets the verdict at the start and that on the run.
+struct Changed<F>(F);
+
+impl<F: Fn(bool, &mut OnRun) + Sync> Judge for Changed<F> {
+    fn on_run(
+        &self,
+        mechanism: &Mechanism,
+        forms: &[Form],
+        (rows, cuts): (&[Row], &[f64]),
+    ) -> Result<Vec<OnRun>, AnalysisError> {
+        let start = analyse(mechanism, 0.0, &rows[0].q)?;
+        let mut all = Product.on_run(mechanism, forms, (rows, cuts))?;
+        for (own, form) in all.iter_mut().zip(forms) {
+            (self.0)(start.reactions[form.group].determines(form.name), own);
+        }
+        Ok(all)
+    }
+
+    fn sensitivities(&self, mechanism: &Mechanism, forms: &[Form], row: &Row) -> Option<AtState> {
+        let found = Product.sensitivities(mechanism, forms, row)?;
+        let each = found.each.iter().map(|s| s.map(|_| 0.0)).collect();
+        Some(AtState { each, ..found })
+    }
+}
+
+fn all_stretches(own: &mut OnRun, word: Word) {
+    own.stretches.iter_mut().for_each(|s| s.word = word);
+}
+
 /// A judge that takes the verdict of the start for that of the run, as the product once did.
 #[test]
 fn a_verdict_of_the_start_is_found_out() {
-    let of_start = |mechanism: &pfaff::model::Mechanism,
-                    forms: &[Form],
-                    (rows, cuts): (&[Row], &[f64]),
-                    rtol: f64| {
-        let analysis = analyse(mechanism, 0.0, &rows[0].q)?;
-        let mut all = verdicts_of_run(mechanism, forms, (rows, cuts), rtol)?;
-        for (own, form) in all.iter_mut().zip(forms) {
-            let is_unique = analysis.reactions[form.group].determines(form.name);
-            for stretch in &mut own.stretches {
-                stretch.word = if is_unique {
-                    Word::Unique
-                } else {
-                    Word::NotUnique
-                };
-            }
-        }
-        Ok(all)
-    };
+    let of_start = Changed(|is_unique: bool, own: &mut OnRun| {
+        let word = if is_unique {
+            Word::Unique
+        } else {
+            Word::NotUnique
+        };
+        all_stretches(own, word);
+    });
     let found = examine_by(&of_start, UPRIGHT, &mut Numbers::new(5));
     assert!(kinds(&found).contains(&Kind::States), "{:?}", found.all);
     let found = examine(UPRIGHT, &mut Numbers::new(5));
@@ -235,35 +254,19 @@ fn planted_faults_are_found() {
     { name = "pin", type = "revolute", bodies = ["base", "lever"], at = [0.4, 0.0] },
     { name = "bar", type = "distance", bodies = ["base", "lever"], at = [[0.1, 0.001], [0.8, 0.001]] },"#,
     );
-    let changed = |change: fn(&mut OnRun)| {
-        move |mechanism: &pfaff::model::Mechanism,
-              forms: &[Form],
-              run: (&[Row], &[f64]),
-              rtol: f64| {
-            let mut all = verdicts_of_run(mechanism, forms, run, rtol)?;
-            all.iter_mut().for_each(change);
-            Ok(all)
-        }
-    };
-    let nothing = changed(|own| {
-        own.stretches
-            .iter_mut()
-            .for_each(|s| s.word = Word::NotUnique);
-    });
+    let nothing = Changed(|_, own: &mut OnRun| all_stretches(own, Word::NotUnique));
     let found = examine_by(&nothing, &doubled, &mut Numbers::new(1));
     assert!(
         kinds(&found).contains(&Kind::Unexplained),
         "{:?}",
         found.all
     );
-    let everything = changed(|own| {
-        own.stretches.iter_mut().for_each(|s| s.word = Word::Unique);
-    });
+    let everything = Changed(|_, own: &mut OnRun| all_stretches(own, Word::Unique));
     let found = examine_by(&everything, &doubled, &mut Numbers::new(1));
     for kind in [Kind::States, Kind::Runs] {
         assert!(kinds(&found).contains(&kind), "{kind:?}: {:?}", found.all);
     }
-    let sturdy = changed(|own| own.sensitivity = Some(0.0));
+    let sturdy = Changed(|_, _: &mut OnRun| ());
     let found = examine_by(&sturdy, &lever, &mut Numbers::new(1));
     assert!(kinds(&found).contains(&Kind::Moves), "{:?}", found.all);
     for text in [&doubled, &lever] {
@@ -275,6 +278,6 @@ fn planted_faults_are_found() {
 /// Every piece on every carrier is among the first of a campaign.
 #[test]
 fn a_short_campaign_finds_nothing() {
-    let tally = Tally::of(1, 0, 60, || ());
+    let tally = Tally::of(1, 0, 30, || ());
     assert!(tally.passes(), "\n{}", tally.describe());
 }

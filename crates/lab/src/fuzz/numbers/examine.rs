@@ -13,9 +13,9 @@ use super::findings::{Count, Findings, Kind};
 use super::forms::{Form, forms};
 use super::oracle::{Fault, Instant};
 use super::refusals;
-use super::run::{RTOL, Row, Run, prepared, run};
+use super::run::{Row, Run, prepared, run};
 use super::sets::{compliances, dropped, elastic, without};
-use super::verdicts::{Judge, OnRun, verdicts_of_run};
+use super::verdicts::{Judge, OnRun, Product};
 use crate::numbers::Numbers;
 
 /// Agreement at one state, of the load.
@@ -27,12 +27,12 @@ const LOAD: f64 = 1e-9;
 /// The findings at a scene; the numbers choose rows to drop and compliances.
 #[must_use]
 pub fn examine(text: &str, numbers: &mut Numbers) -> Findings {
-    examine_by(&verdicts_of_run, text, numbers)
+    examine_by(&Product, text, numbers)
 }
 
 /// Like [`examine`], with the verdicts of another judge.
 #[must_use]
-pub fn examine_by(judge: &Judge, text: &str, numbers: &mut Numbers) -> Findings {
+pub fn examine_by(judge: &dyn Judge, text: &str, numbers: &mut Numbers) -> Findings {
     let mut findings = Findings::default();
     let study = match prepared(text, None) {
         Ok(study) => study,
@@ -53,7 +53,6 @@ pub fn examine_by(judge: &Judge, text: &str, numbers: &mut Numbers) -> Findings 
 /// A run with all that is compared.
 struct Examined<'a> {
     mechanism: &'a Mechanism,
-    run: &'a Run,
     /// Rows of the scene with the oracle's solutions: every other row of the run.
     states: Vec<(&'a Row, Instant, Vec<Form>)>,
     verdicts: Vec<OnRun>,
@@ -63,7 +62,7 @@ struct Examined<'a> {
 
 impl<'a> Examined<'a> {
     fn of(
-        judge: &Judge,
+        judge: &dyn Judge,
         text: &str,
         run: &'a Run,
         (numbers, findings): (&mut Numbers, &mut Findings),
@@ -93,7 +92,7 @@ impl<'a> Examined<'a> {
             return;
         };
         let rows = (&run.rows[..], &run.cuts[..]);
-        let verdicts = match judge(mechanism, forms, rows, RTOL) {
+        let verdicts = match judge.on_run(mechanism, forms, rows) {
             Ok(verdicts) => verdicts,
             Err(error) => return findings.note(Kind::Failed, error.to_string()),
         };
@@ -109,7 +108,6 @@ impl<'a> Examined<'a> {
         let compliances = compliances(mechanism, instant.size, numbers);
         let examined = Self {
             mechanism,
-            run,
             states,
             verdicts,
             sets,
@@ -119,7 +117,7 @@ impl<'a> Examined<'a> {
         examined.at_states(findings);
         examined.choices(which, findings);
         examined.between_runs(text, findings);
-        examined.displaced(which, findings);
+        examined.displaced(judge, which, findings);
     }
 
     fn name(&self, form: &Form) -> String {

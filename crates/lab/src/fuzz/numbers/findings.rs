@@ -60,6 +60,8 @@ pub enum Count {
     Ran,
     /// Runs that stopped, where an own step does not go on or the configuration is singular.
     Stopped,
+    /// Runs that took too many steps.
+    Cut,
     /// Mechanisms that are refused and do not move.
     DoesNotMove,
     /// Mechanisms that are refused at a singular configuration.
@@ -101,6 +103,7 @@ impl Count {
         match self {
             Self::Ran => "mechanisms that ran to their end",
             Self::Stopped => "runs that stopped where they cannot go on, or at a singular pose",
+            Self::Cut => "runs that took too many steps",
             Self::DoesNotMove => "refused, and does not move",
             Self::SingularStart => "refused at a singular configuration",
             Self::NoVelocities => "refused for velocities that no motion has",

@@ -5,6 +5,7 @@ use model::start::scene_size;
 use model::{Mechanism, System};
 use nalgebra::{DMatrix, DVector};
 
+use super::decomposition::Decomposition;
 use super::oracle::units;
 use crate::numbers::Numbers;
 
@@ -18,51 +19,48 @@ const ON_ROWS: f64 = 1e-12;
 /// Singular values below this fraction of the largest one count as zero in a correction.
 const ZERO: f64 = 1e-6;
 
-const ITERATIONS: usize = 12;
+/// Where rows depend on each other to second order only, each iteration halves the distance.
+const ITERATIONS: usize = 40;
+
+/// A mechanism moves if this share of a step is left on the constraints.
+const AWAY: f64 = 0.2;
+
+/// Short steps of a motion that goes on.
+const MARCH: usize = 8;
 
 /// Directions that are tried.
 const TRIES: usize = 6;
 
 /// A scaled C, or its holonomic rows, decomposed.
 struct Linear {
-    left: DMatrix<f64>,
-    values: Vec<f64>,
-    right: DMatrix<f64>,
+    range: Decomposition,
     scale: Vec<f64>,
 }
 
 impl Linear {
-    fn of(mechanism: &Mechanism, (t, q): (f64, &[f64]), rows: usize, size: f64) -> Option<Self> {
+    fn of(mechanism: &Mechanism, (t, q): (f64, &[f64]), rows: &[usize], size: f64) -> Option<Self> {
         let mut s = mechanism.scratch();
         mechanism.pose(t, q, &mut s);
         mechanism.c(&mut s);
         let scale = units(mechanism, size);
         let dense = mechanism.layout().dense(&s);
-        let c = DMatrix::from_fn(rows, scale.len(), |i, j| dense[(i, j)] * scale[j]);
-        if rows == 0 || c.iter().any(|x| !x.is_finite()) {
+        let c = DMatrix::from_fn(rows.len(), scale.len(), |i, j| {
+            dense[(rows[i], j)] * scale[j]
+        });
+        if rows.is_empty() || c.iter().any(|x| !x.is_finite()) {
             return None;
         }
-        let svd = c.svd(true, true);
-        let largest = svd.singular_values.max();
-        let values: Vec<f64> = svd.singular_values.iter().copied().collect();
-        let rank = values.iter().filter(|x| **x > ZERO * largest).count();
-        Some(Self {
-            left: svd.u?.columns(0, rank).into_owned(),
-            values: values[..rank].to_vec(),
-            right: svd.v_t?.rows(0, rank).transpose(),
-            scale,
-        })
+        let range = Decomposition::of(&c).above(ZERO);
+        Some(Self { range, scale })
     }
 
     fn rank(&self) -> usize {
-        self.values.len()
+        self.range.rank()
     }
 
     /// The smallest x with `C·x ≈ g`, in units of velocities.
     fn solve(&self, g: &DVector<f64>) -> Vec<f64> {
-        let along = self.left.transpose() * g;
-        let divided = DVector::from_fn(self.rank(), |k, _| along[k] / self.values[k]);
-        let x = &self.right * divided;
+        let x = self.range.solve(g);
         x.iter().zip(&self.scale).map(|(x, d)| x * d).collect()
     }
 
@@ -73,31 +71,33 @@ impl Linear {
             return None;
         }
         let mut x = DVector::from_fn(n, |_, _| numbers.unit());
-        x -= &self.right * (self.right.transpose() * &x);
+        x -= &self.range.right * (self.range.right.transpose() * &x);
         x.normalize_mut();
         Some(x.iter().zip(&self.scale).map(|(x, d)| x * d).collect())
     }
 }
 
-/// The ranks of C at a configuration, and the largest at configurations near it: the former is
-/// lower where the configuration is singular.
+/// The ranks of C without drives at a configuration, and the largest at configurations near it: the
+/// former is lower where the configuration is singular.
 #[must_use]
 pub fn ranks(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers) -> [usize; 2] {
     let size = scene_size(mechanism, q);
-    let rows = mechanism.layout().rows();
-    let rank = |q: &[f64]| Linear::of(mechanism, (t, q), rows, size).map_or(0, |c| c.rank());
-    let here = rank(q);
-    let near = (0..3).map(|_| {
-        let d: Vec<f64> = (0..mechanism.layout().n_v)
-            .map(|_| 0.1 * size * numbers.unit())
-            .collect();
-        let units = units(mechanism, size);
-        let d: Vec<f64> = d.iter().zip(&units).map(|(d, u)| d * u).collect();
+    let layout = mechanism.layout();
+    let drives = layout.drive_rows();
+    let rows: Vec<usize> = (0..layout.rows()).filter(|i| !drives.contains(i)).collect();
+    let positions: Vec<usize> = rows.iter().copied().filter(|i| *i < layout.m).collect();
+    let rank = |q: &[f64]| Linear::of(mechanism, (t, q), &rows, size).map_or(0, |c| c.rank());
+    let units = units(mechanism, size);
+    let mut near = |length: f64| {
         let mut moved = q.to_vec();
+        let unit = units.iter().map(|unit| length * size * unit);
+        let d: Vec<f64> = unit.map(|unit| unit * numbers.unit()).collect();
         mechanism.displace(&mut moved, &d);
-        corrected(mechanism, t, &mut moved, size).then(|| rank(&moved))
-    });
-    [here, near.flatten().fold(here, usize::max)]
+        corrected(mechanism, (t, &positions), &mut moved, size).then(|| rank(&moved))
+    };
+    let here = rank(q);
+    let near = [0.1, 0.1, 0.03, 0.03].map(&mut near);
+    [here, near.into_iter().flatten().fold(here, usize::max)]
 }
 
 /// Whether an own step moves the mechanism at a configuration: along velocities that its drives
@@ -106,7 +106,7 @@ pub fn ranks(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers
 pub fn moves(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers) -> bool {
     let size = scene_size(mechanism, q);
     let layout = mechanism.layout();
-    let Some(c) = Linear::of(mechanism, (t, q), layout.rows(), size) else {
+    let Some(c) = Linear::of(mechanism, (t, q), &all(layout.rows()), size) else {
         return layout.rows() == 0;
     };
     let mut s = mechanism.scratch();
@@ -118,58 +118,71 @@ pub fn moves(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers
     let rate = driven.iter().zip(&c.scale).map(|(v, d)| (v / d).abs());
     let rate = rate.fold(0.0, f64::max);
     if rate > 1e-9 * size {
-        return continues(mechanism, (t, q, &driven), STEP * size / rate);
+        return marches(mechanism, (t, q, &driven), STEP * size / rate);
     }
     (0..TRIES).any(|_| {
         c.free(numbers).is_some_and(|v| {
-            let v: Vec<f64> = v.iter().map(|x| x * size).collect();
-            steps(mechanism, t, (q, &v), STEP, size)
+            let step: Vec<f64> = v.iter().map(|x| STEP * x * size).collect();
+            steps(mechanism, t, (q, &step), size)
         })
     })
 }
 
-/// Whether the motion goes on for a time `dt` after a state.
+/// Whether the motion goes on for a time `dt` after a state, in short steps that follow each other.
 #[must_use]
-pub fn continues(mechanism: &Mechanism, (t, q, v): (f64, &[f64], &[f64]), dt: f64) -> bool {
-    steps(mechanism, t + dt, (q, v), dt, scene_size(mechanism, q))
+pub fn marches(mechanism: &Mechanism, (t, q, v): (f64, &[f64], &[f64]), dt: f64) -> bool {
+    let size = scene_size(mechanism, q);
+    let short = dt / MARCH as f64;
+    let positions = all(mechanism.layout().m);
+    let mut step: Vec<f64> = v.iter().map(|v| v * short).collect();
+    let mut at = q.to_vec();
+    for k in 1..=MARCH {
+        let mut next = at.clone();
+        mechanism.displace(&mut next, &step);
+        if !corrected(
+            mechanism,
+            (t + k as f64 * short, &positions),
+            &mut next,
+            size,
+        ) {
+            return false;
+        }
+        mechanism.difference(&next, &at, &mut step);
+        at = next;
+    }
+    true
 }
 
-/// Whether Newton's method at time t, begun at `q + v·dt`, ends on the constraints, within half of
-/// that step of where it began.
-fn steps(mechanism: &Mechanism, t: f64, (q, v): (&[f64], &[f64]), dt: f64, size: f64) -> bool {
-    let step: Vec<f64> = v.iter().map(|v| v * dt).collect();
+/// Whether Newton's method at time t, begun at `q + step`, ends on the constraints and away from q.
+fn steps(mechanism: &Mechanism, t: f64, (q, step): (&[f64], &[f64]), size: f64) -> bool {
+    let positions = all(mechanism.layout().m);
     let mut moved = q.to_vec();
-    mechanism.displace(&mut moved, &step);
-    let begun = moved.clone();
-    if !corrected(mechanism, t, &mut moved, size) {
-        return false;
-    }
-    let [far, corrected] =
-        [q, &begun].map(|from| mechanism.largest_difference(&moved, from, size).1);
-    corrected <= 0.5 * far
+    mechanism.displace(&mut moved, step);
+    let [begun, ended] = [false, true].map(|ends| {
+        let is_on = !ends || corrected(mechanism, (t, &positions), &mut moved, size);
+        is_on.then(|| mechanism.largest_difference(&moved, q, size).1)
+    });
+    matches!((begun, ended), (Some(begun), Some(ended)) if ended >= AWAY * begun)
 }
 
-/// Moves a configuration onto all holonomic rows; whether that succeeded.
-fn corrected(mechanism: &Mechanism, t: f64, q: &mut [f64], size: f64) -> bool {
-    let m = mechanism.layout().m;
-    if m == 0 {
-        return true;
-    }
+fn all(to: usize) -> Vec<usize> {
+    (0..to).collect()
+}
+
+/// Moves a configuration onto these holonomic rows; whether that succeeded.
+fn corrected(mechanism: &Mechanism, (t, rows): (f64, &[usize]), q: &mut [f64], size: f64) -> bool {
     let mut s = mechanism.scratch();
     for _ in 0..ITERATIONS {
         mechanism.pose(t, q, &mut s);
         mechanism.phi(&mut s);
-        if linalg::kernels::max_abs(&s.phi) <= ON_ROWS * size {
+        let missing = DVector::from_iterator(rows.len(), rows.iter().map(|&i| -s.phi[i]));
+        if missing.amax() <= ON_ROWS * size {
             return true;
         }
-        let Some(c) = Linear::of(mechanism, (t, q), m, size) else {
+        let Some(c) = Linear::of(mechanism, (t, q), rows, size) else {
             return false;
         };
-        let step: Vec<f64> = c
-            .solve(&DVector::from_column_slice(&s.phi))
-            .iter()
-            .map(|x| -x)
-            .collect();
+        let step = c.solve(&missing);
         if step.iter().any(|x| !x.is_finite()) {
             return false;
         }

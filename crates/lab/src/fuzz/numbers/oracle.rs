@@ -1,12 +1,13 @@
 //! The equations of motion at one state, solved with dense matrices: `M·a + Cᵀ·λ = Q`, `C·a = Γ`.
-//! The rank, the left null space of C and all solutions λ come from a singular value decomposition
-//! of the scaled C. C, Γ, M and Q are those of the mechanism; no decision and no verdict of the
+//! The rank, the left null space of C and all solutions λ come from the singular values of the
+//! scaled C. C, Γ, M and Q are those of the mechanism; no decision and no verdict of the
 //! product is used.
 
 use model::start::scene_size;
 use model::{Mechanism, System};
 use nalgebra::{DMatrix, DVector};
 
+use super::decomposition::Decomposition;
 use super::forms::Form;
 
 /// Singular values below this fraction of the largest one are zero. Those of redundant rows are
@@ -80,11 +81,11 @@ impl Instant {
         let scaled = DVector::from_fn(n, |j, _| column_scale[j] * missing[j]);
         Ok(Self {
             size,
-            rank: parts.rank,
+            rank: parts.range.rank(),
             sigma: parts.sigma,
             load: largest(&s.force, &column_scale).max(largest(&inertial, &column_scale)),
-            lambda: parts.multipliers(&scaled),
-            null: complement(&parts.left, m - parts.rank),
+            lambda: parts.range.solve_transposed(&scaled),
+            null: complement(&parts.range.left, m - parts.range.rank()),
             row_scale,
         })
     }
@@ -122,59 +123,29 @@ impl Instant {
     }
 }
 
-/// The decomposition of the scaled C.
+/// The scaled C, decomposed.
 struct Parts {
-    left: DMatrix<f64>,
-    right: DMatrix<f64>,
-    values: Vec<f64>,
-    rank: usize,
+    range: Decomposition,
     sigma: f64,
 }
 
 impl Parts {
     fn of(c: &DMatrix<f64>) -> Result<Self, Fault> {
-        let (m, n) = c.shape();
         if c.iter().any(|x| !x.is_finite()) {
             return Err(Fault::NotFinite);
         }
-        if m == 0 || n == 0 {
-            return Ok(Self {
-                left: DMatrix::zeros(m, 0),
-                right: DMatrix::zeros(n, 0),
-                values: Vec::new(),
-                rank: 0,
-                sigma: 1.0,
-            });
-        }
-        let svd = c.clone().svd(true, true);
-        let (Some(u), Some(v)) = (svd.u, svd.v_t) else {
-            return Err(Fault::NotFinite);
-        };
-        let values: Vec<f64> = svd.singular_values.iter().copied().collect();
-        let largest = values.first().copied().unwrap_or(0.0);
-        let share = |x: f64| x * inverse(largest);
-        let is_unclear = |x: &f64| (UNCLEAR[0]..UNCLEAR[1]).contains(&share(*x));
-        if values.iter().any(is_unclear) {
+        let all = Decomposition::of(c);
+        let largest = inverse(all.values.first().copied().unwrap_or(0.0));
+        let share = |x: &f64| x * largest;
+        let is_unclear = |x: &f64| (UNCLEAR[0]..UNCLEAR[1]).contains(&share(x));
+        if all.values.iter().any(is_unclear) {
             return Err(Fault::Unclear);
         }
-        let rank = values.iter().filter(|x| share(**x) > ZERO).count();
+        let range = all.above(ZERO);
         Ok(Self {
-            left: u.columns(0, rank).into_owned(),
-            right: v.rows(0, rank).transpose(),
-            sigma: values[..rank].last().map_or(1.0, |x| share(*x)),
-            values: values[..rank].to_vec(),
-            rank,
+            sigma: range.values.last().map_or(1.0, share),
+            range,
         })
-    }
-
-    /// `Σ⁻¹` of the columns.
-    fn divided(&self, x: DVector<f64>) -> DVector<f64> {
-        DVector::from_fn(self.rank, |k, _| x[k] / self.values[k])
-    }
-
-    /// The scaled multipliers of least norm that take these scaled loads: `U·Σ⁻¹·Vᵀ`.
-    fn multipliers(&self, load: &DVector<f64>) -> DVector<f64> {
-        &self.left * self.divided(self.right.transpose() * load)
     }
 
     /// Scaled accelerations: those that `Γ` requires, and those that balance all forces along free
@@ -186,15 +157,15 @@ impl Parts {
         gamma: &DVector<f64>,
         force: &[f64],
     ) -> Result<DVector<f64>, Fault> {
-        let along = self.left.transpose() * gamma;
-        let left_over = (gamma - &self.left * &along).norm();
+        let along = self.range.left.transpose() * gamma;
+        let left_over = (gamma - &self.range.left * &along).norm();
         let n = scale.len();
-        let required = &self.right * self.divided(along);
+        let required = self.range.solve(gamma);
         let most = gamma.norm().max(required.norm());
         if left_over > 1e-6 * most.max(1e-6) {
             return Err(Fault::Contradiction(left_over / most));
         }
-        let free = complement(&self.right, n - self.rank);
+        let free = complement(&self.range.right, n - self.range.rank());
         if free.ncols() == 0 {
             return Ok(required);
         }

@@ -1,18 +1,20 @@
 //! (d): mechanisms that the product refuses, and runs that it stops. Is there a reason?
 
 use dynamics::MotionError;
+use integrators::IntegrationError;
 use model::{Mechanism, Registry, System};
 use nalgebra::{DMatrix, DVector};
 use pfaff::{AssembledScene, StudyError};
 
+use super::decomposition::Decomposition;
 use super::findings::{Count, Findings, Kind};
-use super::moves::{continues, moves, ranks};
+use super::moves::{marches, moves, ranks};
 use super::oracle::{Fault, Instant, inverse};
 use super::run::{Row, Run};
 use crate::numbers::Numbers;
 
-/// Steps (s) that are tried where a run stops.
-const AFTER: [f64; 2] = [1e-6, 1e-4];
+/// How long the motion is to go on where a run stopped (s).
+const AFTER: f64 = 1e-3;
 
 /// Velocities are possible if all rows hold to this share of their terms.
 const POSSIBLE: f64 = 1e-9;
@@ -69,10 +71,7 @@ fn has_velocities(mechanism: &Mechanism, q: &[f64]) -> bool {
     let b = DVector::from_fn(rows.len(), |i, _| {
         rows[i].1 * inverse(DVector::from_column_slice(&rows[i].0).norm())
     });
-    let svd = a.clone().svd(true, true);
-    let Ok(v) = svd.solve(&b, 1e-9) else {
-        return false;
-    };
+    let v = Decomposition::of(&a).above(1e-9).solve(&b);
     (a * v - &b).norm() <= POSSIBLE * b.norm().max(1.0)
 }
 
@@ -96,18 +95,29 @@ pub(super) fn on_the_way(
         }
         return;
     };
+    if matches!(error, MotionError::Integration(e) if matches!(**e, IntegrationError::TooManySteps { .. }))
+    {
+        return findings.count(Count::Cut, 1);
+    }
     let is_singular = is_near_singular(mechanism, row) || {
         let [here, near] = ranks(mechanism, (row.t_before, &row.q), numbers);
         here < near
     };
-    let state = (row.t, &row.q[..], &row.v[..]);
-    if is_singular || !AFTER.iter().all(|dt| continues(mechanism, state, *dt)) {
+    // From rest the motion goes anywhere, later on as it went.
+    let goes_on = if row.t == 0.0 {
+        moves(mechanism, (0.0, &row.q), numbers)
+    } else {
+        marches(
+            mechanism,
+            (row.t, &row.q, &row.v),
+            run.reached - row.t + AFTER,
+        )
+    };
+    if is_singular || !goes_on {
         findings.count(Count::Stopped, 1);
     } else {
-        findings.note(
-            Kind::Refused,
-            format!("stopped after t = {} s: {error}", row.t),
-        );
+        let text = format!("stopped after t = {} s: {error}", row.t);
+        findings.note(Kind::Refused, text);
     }
 }
 

@@ -36,6 +36,8 @@ pub struct Run {
     pub rows: Vec<Row>,
     /// Times at which verdicts may change.
     pub cuts: Vec<f64>,
+    /// The time that it reached (s).
+    pub reached: f64,
     /// Why it stopped before its end.
     pub stopped: Option<MotionError>,
 }
@@ -80,16 +82,17 @@ pub fn run(study: Study) -> Run {
         });
         Ok(ControlFlow::Continue(()))
     });
-    let (events, stopped) = match outcome {
-        Ok(summary) => (summary.events, None),
-        Err(failure) => (failure.summary.events, Some(failure.error)),
+    let (summary, stopped) = match outcome {
+        Ok(summary) => (summary, None),
+        Err(failure) => (failure.summary, Some(failure.error)),
     };
     let mut cuts = breaks;
-    cuts.extend(events.iter().map(|e| e.time));
+    cuts.extend(summary.events.iter().map(|e| e.time));
     Run {
         study,
         rows,
         cuts,
+        reached: summary.t,
         stopped,
     }
 }

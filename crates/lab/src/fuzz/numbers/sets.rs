@@ -4,6 +4,7 @@ use model::{ConstraintId, Mechanism, System};
 use nalgebra::{DMatrix, DVector};
 use solvability::Compliance;
 
+use super::decomposition::Decomposition;
 use super::forms::Form;
 use super::oracle::Instant;
 use crate::numbers::Numbers;
@@ -11,6 +12,12 @@ use crate::numbers::Numbers;
 /// A row may be dropped next if its part in the left null space that remains is at least this share
 /// of the largest one: the solutions are then at most some hundred times the loads.
 const SHARE: f64 = 0.1;
+
+/// Rows are not admissible if their part in the left null space is singular to this share.
+const NEARLY_NOT: f64 = 1e-3;
+
+/// Components do not determine a solution that changes them by less than this share of others.
+const HIDDEN: f64 = 1e-6;
 
 /// Random rows whose removal leaves the rank as it is, as many as there are redundant ones.
 #[must_use]
@@ -46,13 +53,10 @@ pub fn without(instant: &Instant, from: &DVector<f64>, rows: &[usize]) -> Option
     }
     let own = DMatrix::from_fn(rows.len(), rows.len(), |i, j| z[(rows[i], j)]);
     let wanted = DVector::from_fn(rows.len(), |i, _| from[rows[i]]);
-    let svd = own.svd(true, true);
-    let least = svd.singular_values.iter().copied().fold(1.0, f64::min);
-    if least < 1e-3 {
-        return None;
-    }
-    let y = svd.solve(&wanted, 0.0).ok()?;
-    Some(from - z * y)
+    let own = Decomposition::of(&own).above(NEARLY_NOT);
+    let is_admissible =
+        own.rank() == rows.len() && own.values.last().is_some_and(|x| *x > NEARLY_NOT);
+    is_admissible.then(|| from - z * own.solve(&wanted))
 }
 
 /// A compliance of each joint and drive, within a factor of four.
@@ -105,12 +109,6 @@ pub fn elastic(
         a.set_row(k, &((w.transpose() * z) * *weight));
         b[k] = weight * w.dot(from);
     }
-    let svd = a.svd(true, true);
-    let values = &svd.singular_values;
-    let largest = values.iter().copied().fold(0.0, f64::max);
-    if values.len() < z.ncols() || values.iter().any(|x| *x < 1e-6 * largest) {
-        return None;
-    }
-    let y = svd.solve(&b, 0.0).ok()?;
-    Some(from - z * y)
+    let own = Decomposition::of(&a).above(HIDDEN);
+    (own.rank() == z.ncols()).then(|| from - z * own.solve(&b))
 }

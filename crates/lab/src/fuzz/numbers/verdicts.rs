@@ -4,11 +4,11 @@
 //! Between cuts of a run (events, breaks of functions of time) a component is `unique` if its
 //! verdict is at every state of the open interval, `not unique` if it is at one, else undecided.
 
-use model::{Known, Mechanism, System};
+use model::{Known, Mechanism};
 use solvability::{Analysis, AnalysisError, Verdict, analyse_known};
 
 use super::forms::Form;
-use super::run::Row;
+use super::run::{RTOL, Row};
 
 /// A verdict in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -61,59 +61,100 @@ impl OnRun {
     }
 }
 
-/// What is examined: verdicts on components along a run with these rows and cuts, integrated to a
-/// relative tolerance.
-pub type Judge =
-    dyn Fn(&Mechanism, &[Form], (&[Row], &[f64]), f64) -> Result<Vec<OnRun>, AnalysisError> + Sync;
+/// What is examined: verdicts and sensitivities.
+pub trait Judge: Sync {
+    /// The verdicts on components along a run with these rows and cuts, integrated to [`RTOL`].
+    ///
+    /// # Errors
+    /// If a state cannot be analysed.
+    fn on_run(
+        &self,
+        mechanism: &Mechanism,
+        forms: &[Form],
+        run: (&[Row], &[f64]),
+    ) -> Result<Vec<OnRun>, AnalysisError>;
 
-/// The verdicts of the product on all components along a run with these rows.
-///
-/// # Errors
-/// If a state cannot be analysed.
-pub fn verdicts_of_run(
-    mechanism: &Mechanism,
-    forms: &[Form],
-    (rows, cuts): (&[Row], &[f64]),
-    rtol: f64,
-) -> Result<Vec<OnRun>, AnalysisError> {
-    let ends = ends(rows, cuts);
-    let mut all: Vec<OnRun> = forms
-        .iter()
-        .map(|_| OnRun {
+    /// The sensitivities of components at one state.
+    fn sensitivities(&self, mechanism: &Mechanism, forms: &[Form], row: &Row) -> Option<AtState>;
+}
+
+/// Sensitivities at one state.
+#[derive(Clone, Debug)]
+pub struct AtState {
+    /// The rows that are kept.
+    pub kept: Vec<usize>,
+    /// By component, if it is determined and its sensitivity is known.
+    pub each: Vec<Option<f64>>,
+}
+
+/// The product.
+pub struct Product;
+
+impl Judge for Product {
+    fn on_run(
+        &self,
+        mechanism: &Mechanism,
+        forms: &[Form],
+        (rows, cuts): (&[Row], &[f64]),
+    ) -> Result<Vec<OnRun>, AnalysisError> {
+        let ends = ends(rows, cuts);
+        let none = OnRun {
             stretches: Vec::new(),
             sensitivity: None,
-        })
-        .collect();
-    for piece in ends.windows(2) {
-        let inside = |row: &&Row| piece[0] < row.t && row.t < piece[1];
-        let mut states: Vec<&Row> = rows.iter().filter(inside).collect();
-        if states.is_empty() {
-            states.extend(rows.iter().find(|row| row.t == piece[0]));
-        }
-        let mut words = vec![Word::Unique; forms.len()];
-        let middle = states.len() / 2;
-        for (k, row) in states.iter().enumerate() {
-            let known = match row.t {
-                0.0 => Known::AsStored,
-                _ => Known::To(rtol),
+        };
+        let mut all = vec![none; forms.len()];
+        for piece in ends.windows(2) {
+            let inside = |row: &&Row| piece[0] < row.t && row.t < piece[1];
+            let states: Vec<&Row> = rows.iter().filter(inside).collect();
+            // Nothing is known of a stretch without a state inside.
+            let word = if states.is_empty() {
+                Word::Undecided
+            } else {
+                Word::Unique
             };
-            let analysis = analyse_known(mechanism, row.t_before, &row.q, known)?;
-            for (word, form) in words.iter_mut().zip(forms) {
-                *word = (*word).max(word_of(&analysis, form));
+            let mut words = vec![word; forms.len()];
+            for (k, row) in states.iter().enumerate() {
+                let analysis = analysis(mechanism, row)?;
+                for (word, form) in words.iter_mut().zip(forms) {
+                    *word = (*word).max(word_of(&analysis, form));
+                }
+                if k == states.len() / 2 {
+                    let found = sensitivities(mechanism, &analysis, forms, row);
+                    for (own, new) in all.iter_mut().zip(found.iter().flat_map(|f| &f.each)) {
+                        own.sensitivity = larger(own.sensitivity, *new);
+                    }
+                }
             }
-            if k == middle {
-                sensitivities(mechanism, &analysis, row, (forms, &mut all));
+            for (own, word) in all.iter_mut().zip(words) {
+                own.stretches.push(Stretch {
+                    from: piece[0],
+                    to: piece[1],
+                    word,
+                });
             }
         }
-        for (own, word) in all.iter_mut().zip(words) {
-            own.stretches.push(Stretch {
-                from: piece[0],
-                to: piece[1],
-                word,
-            });
-        }
+        Ok(all)
     }
-    Ok(all)
+
+    fn sensitivities(&self, mechanism: &Mechanism, forms: &[Form], row: &Row) -> Option<AtState> {
+        sensitivities(mechanism, &analysis(mechanism, row).ok()?, forms, row)
+    }
+}
+
+fn larger(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.max(b)),
+        (a, b) => a.or(b),
+    }
+}
+
+/// The analysis of a state, known to the tolerance of the run that has reached it.
+fn analysis(mechanism: &Mechanism, row: &Row) -> Result<Analysis, AnalysisError> {
+    let known = match row.t {
+        0.0 => Known::AsStored,
+        _ => Known::To(RTOL),
+    };
+    analyse_known(mechanism, row.t_before, &row.q, known)
 }
 
 fn ends(rows: &[Row], cuts: &[f64]) -> Vec<f64> {
@@ -142,24 +183,19 @@ fn word_of(analysis: &Analysis, form: &Form) -> Word {
     }
 }
 
-/// Takes the largest sensitivity of each component so far.
 fn sensitivities(
     mechanism: &Mechanism,
     analysis: &Analysis,
+    forms: &[Form],
     row: &Row,
-    (forms, all): (&[Form], &mut [OnRun]),
-) {
-    if mechanism.layout().rows() == 0 {
-        return;
-    }
-    let Ok(found) = analysis.sensitivities(mechanism, &row.q, &row.v) else {
-        return;
-    };
-    for (own, form) in all.iter_mut().zip(forms) {
-        let new = found.each[form.group].as_ref().map(|s| s.change);
-        own.sensitivity = match (own.sensitivity, new) {
-            (Some(a), Some(b)) => Some(a.max(b)),
-            (a, b) => a.or(b),
-        };
-    }
+) -> Option<AtState> {
+    let found = analysis.sensitivities(mechanism, &row.q, &row.v).ok()?;
+    let each = forms.iter().map(|form| {
+        let change = found.each[form.group].as_ref().map(|s| s.change);
+        change.filter(|_| word_of(analysis, form) == Word::Unique)
+    });
+    Some(AtState {
+        kept: analysis.decision.kept.clone(),
+        each: each.collect(),
+    })
 }

@@ -36,11 +36,12 @@ impl Examined<'_> {
                     let permitted = AT_STATE * reference(own, &values, instant.load);
                     if span > permitted.max(AT_STATE * LOAD) || is_free {
                         let text = format!(
-                            "`{}` at t = {} s: {values:?} N, load {:.3e} N, margin {:.1e}",
+                            "`{}` at t = {} s: {values:?} N, load {:.3e} N, margin {:.1e}, σ {:.1e}",
                             self.name(form),
                             row.t,
                             instant.load,
-                            instant.margin(form, forms)
+                            instant.margin(form, forms),
+                            instant.sigma
                         );
                         findings.note(Kind::States, text);
                     }
@@ -91,10 +92,11 @@ impl Examined<'_> {
         let permitted = AT_STATE * reference(own, &[right], instant.load);
         if !told.is_nan() && (told - right).abs() > permitted.max(AT_STATE * LOAD) {
             let text = format!(
-                "`{}` at t = {} s: {told:?} N, right {right:?} N, load {:.3e} N",
+                "`{}` at t = {} s: {told:?} N, right {right:?} N, load {:.3e} N, σ {:.1e}",
                 self.name(form),
                 row.t,
-                instant.load
+                instant.load,
+                instant.sigma
             );
             findings.note(Kind::Values, text);
         }
