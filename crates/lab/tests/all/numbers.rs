@@ -7,7 +7,7 @@ use lab::fuzz::numbers::findings::{Findings, Kind};
 use lab::fuzz::numbers::forms::{Form, forms};
 use lab::fuzz::numbers::moves::moves;
 use lab::fuzz::numbers::oracle::Instant;
-use lab::fuzz::numbers::run::{Row, prepared};
+use lab::fuzz::numbers::run::{Row, Run, prepared};
 use lab::fuzz::numbers::sets::{elastic, without};
 use lab::fuzz::numbers::tally::Tally;
 use lab::fuzz::numbers::verdicts::{AtState, Judge, OnRun, Product, Word};
@@ -16,7 +16,7 @@ use pfaff::AssembledScene;
 use pfaff::model::{ConstraintId, Mechanism, Registry, System};
 use pfaff::solvability::{AnalysisError, Compliance, analyse};
 
-/// A leaf of 20 kg on two hinges, 1.5 m apart; the mass centre is 0.4 m beside them.
+/// A leaf of 20 kg on two hinges, 1.5 m apart; the mass centre is 0.4 m away from their line.
 const DOOR: &str = r#"
 scene = { name = "door", space = "plane", gravity = [0.0, -10.0] }
 body = [{ name = "leaf", mass = 20.0, inertia = 8.0, position = [0.4, 1.0] }]
@@ -84,7 +84,7 @@ fn find<'f>(forms: &'f [Form], group: usize, name: &str) -> &'f Form {
         .expect("a component")
 }
 
-/// Moments about the upper hinge: 1.5·Fx = 0.4·200 N·m. The weight is shared as nobody knows:
+/// Moments about the upper hinge: 1.5·Fx = 0.4·200 N·m. The weight is shared as one chooses:
 /// without one of the rows the other takes all, and equal hinges take halves.
 #[test]
 fn the_oracle_knows_a_door() {
@@ -196,14 +196,9 @@ fn kinds(findings: &Findings) -> Vec<Kind> {
 struct Changed<F>(F);
 
 impl<F: Fn(bool, &mut OnRun) + Sync> Judge for Changed<F> {
-    fn on_run(
-        &self,
-        mechanism: &Mechanism,
-        forms: &[Form],
-        (rows, cuts): (&[Row], &[f64]),
-    ) -> Result<Vec<OnRun>, AnalysisError> {
-        let start = analyse(mechanism, 0.0, &rows[0].q)?;
-        let mut all = Product.on_run(mechanism, forms, (rows, cuts))?;
+    fn on_run(&self, run: &Run, forms: &[Form]) -> Result<Vec<OnRun>, AnalysisError> {
+        let start = analyse(&run.study.prepared.mechanism, 0.0, &run.rows[0].q)?;
+        let mut all = Product.on_run(run, forms)?;
         for (own, form) in all.iter_mut().zip(forms) {
             (self.0)(start.reactions[form.group].determines(form.name), own);
         }

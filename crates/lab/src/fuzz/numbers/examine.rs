@@ -21,7 +21,7 @@ use crate::numbers::Numbers;
 /// Agreement at one state, of the load.
 const AT_STATE: f64 = 1e-8;
 
-/// A load below this (N) is none.
+/// A load below this (N) counts as zero.
 const LOAD: f64 = 1e-9;
 
 /// The findings at a scene; the numbers choose rows to drop and compliances.
@@ -91,8 +91,7 @@ impl<'a> Examined<'a> {
         let Some((_, instant, forms)) = states.get(states.len() / 2) else {
             return;
         };
-        let rows = (&run.rows[..], &run.cuts[..]);
-        let verdicts = match judge.on_run(mechanism, forms, rows) {
+        let verdicts = match judge.on_run(run, forms) {
             Ok(verdicts) => verdicts,
             Err(error) => return findings.note(Kind::Failed, error.to_string()),
         };

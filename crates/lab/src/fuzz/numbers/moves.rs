@@ -64,7 +64,7 @@ impl Linear {
         x.iter().zip(&self.scale).map(|(x, d)| x * d).collect()
     }
 
-    /// A random motion that all rows allow, of unit length; `None` if there is none.
+    /// A random motion that all rows allow, of unit length; `None` if no such motion exists.
     fn free(&self, numbers: &mut Numbers) -> Option<Vec<f64>> {
         let n = self.scale.len();
         if self.rank() >= n {

@@ -36,7 +36,7 @@ pub struct Scene {
 #[must_use]
 pub fn scene(seed: u64, number: u64) -> Scene {
     let mut numbers = Numbers::new(seed ^ Numbers::new(number).bits());
-    let space = if number % 2 == 0 {
+    let space = if number.is_multiple_of(2) {
         Space::Plane
     } else {
         Space::Space

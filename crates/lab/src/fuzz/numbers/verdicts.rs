@@ -8,7 +8,7 @@ use model::{Known, Mechanism};
 use solvability::{Analysis, AnalysisError, Verdict, analyse_known};
 
 use super::forms::Form;
-use super::run::{RTOL, Row};
+use super::run::{RTOL, Row, Run};
 
 /// A verdict in one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -63,16 +63,11 @@ impl OnRun {
 
 /// What is examined: verdicts and sensitivities.
 pub trait Judge: Sync {
-    /// The verdicts on components along a run with these rows and cuts, integrated to [`RTOL`].
+    /// The verdicts on components along a run.
     ///
     /// # Errors
     /// If a state cannot be analysed.
-    fn on_run(
-        &self,
-        mechanism: &Mechanism,
-        forms: &[Form],
-        run: (&[Row], &[f64]),
-    ) -> Result<Vec<OnRun>, AnalysisError>;
+    fn on_run(&self, run: &Run, forms: &[Form]) -> Result<Vec<OnRun>, AnalysisError>;
 
     /// The sensitivities of components at one state.
     fn sensitivities(&self, mechanism: &Mechanism, forms: &[Form], row: &Row) -> Option<AtState>;
@@ -91,13 +86,9 @@ pub struct AtState {
 pub struct Product;
 
 impl Judge for Product {
-    fn on_run(
-        &self,
-        mechanism: &Mechanism,
-        forms: &[Form],
-        (rows, cuts): (&[Row], &[f64]),
-    ) -> Result<Vec<OnRun>, AnalysisError> {
-        let ends = ends(rows, cuts);
+    fn on_run(&self, run: &Run, forms: &[Form]) -> Result<Vec<OnRun>, AnalysisError> {
+        let (mechanism, rows) = (&run.study.prepared.mechanism, &run.rows[..]);
+        let ends = ends(rows, &run.cuts);
         let none = OnRun {
             stretches: Vec::new(),
             sensitivity: None,

@@ -8,8 +8,10 @@ use solvability::{Choice, Questions, Value, analyse_known, solution};
 
 use super::{AT_STATE, Examined, LOAD, reference};
 use crate::fuzz::numbers::findings::{Findings, Kind};
+use crate::fuzz::numbers::moves::ranks;
 use crate::fuzz::numbers::run::RTOL;
 use crate::fuzz::numbers::sets::{elastic, without};
+use crate::numbers::Numbers;
 
 /// Agreement of chosen numbers, of the largest of them.
 const CHOSEN: f64 = 1e-7;
@@ -27,9 +29,18 @@ impl Examined<'_> {
         let Ok(analysis) = analyse_known(self.mechanism, row.t_before, &row.q, known) else {
             return;
         };
-        let Ok(solved) = solution(self.mechanism, state, &analysis.decision) else {
-            let text = format!("no solution at t = {} s", row.t);
-            return findings.note(Kind::Failed, text);
+        let solved = match solution(self.mechanism, state, &analysis.decision) {
+            Ok(solved) => solved,
+            Err(error) => {
+                let at = (row.t_before, &row.q[..]);
+                let [here, near] = ranks(self.mechanism, at, &mut Numbers::new(1));
+                // At a singular configuration there may be none.
+                if here == near {
+                    let text = format!("no solution at t = {} s: {error}", row.t);
+                    findings.note(Kind::Failed, text);
+                }
+                return;
+            }
         };
         let questions = Questions::new(self.mechanism, &row.q, Arc::new(analysis));
         let least = instant.least();
@@ -64,16 +75,16 @@ impl Examined<'_> {
                 let components = &found.reactions[form.group].components;
                 let of = components.iter().find(|(name, _)| *name == form.name);
                 let Some((_, value)) = of else { continue };
-                let (told, permitted) = match value {
+                let (given, permitted) = match value {
                     Value::Unique(x) => (x, AT_STATE * reference(verdict, &[*right], instant.load)),
                     Value::Chosen { value, .. } => (value, CHOSEN * largest),
                 };
-                if (form.unit * told - right).abs() > permitted.max(AT_STATE * LOAD) {
+                if (form.unit * given - right).abs() > permitted.max(AT_STATE * LOAD) {
                     let text = format!(
                         "`{}` by {choice:?} at t = {} s: {:?} N, right {right:?} N",
                         self.name(form),
                         row.t,
-                        form.unit * told
+                        form.unit * given
                     );
                     findings.note(Kind::Choices, text);
                 }

@@ -85,14 +85,14 @@ impl Examined<'_> {
         let Some(reaction) = row.reactions.get(form.group) else {
             return;
         };
-        let (told, right) = (
+        let (found, right) = (
             form.of(self.mechanism, reaction),
             instant.scaled(form).dot(instant.least()),
         );
         let permitted = AT_STATE * reference(own, &[right], instant.load);
-        if !told.is_nan() && (told - right).abs() > permitted.max(AT_STATE * LOAD) {
+        if !found.is_nan() && (found - right).abs() > permitted.max(AT_STATE * LOAD) {
             let text = format!(
-                "`{}` at t = {} s: {told:?} N, right {right:?} N, load {:.3e} N, σ {:.1e}",
+                "`{}` at t = {} s: {found:?} N, right {right:?} N, load {:.3e} N, σ {:.1e}",
                 self.name(form),
                 row.t,
                 instant.load,
