@@ -17,6 +17,7 @@
 //! | [`minimise`] | the shortest text that still fails alike |
 //! | [`passages`] | parallelograms through their flat poses, against closed forms |
 //! | [`mod@exact`] | degenerate scenes whose answer exact arithmetic knows: does the program give it? |
+//! | [`numbers`] | random motions: are numbers that are called determined the same in all solutions? |
 //! | [`space`] | mechanisms in space with planted redundancy, and what exact arithmetic says of them |
 
 pub mod campaign;
@@ -24,6 +25,7 @@ pub mod damage;
 pub mod exact;
 pub mod input;
 pub mod minimise;
+pub mod numbers;
 pub mod passages;
 pub mod scenes;
 pub mod space;

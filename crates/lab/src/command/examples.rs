@@ -36,5 +36,6 @@ pub(super) const FUZZ: &str = "Examples:
   lab fuzz exact --suite lifted                      scenes of the plane, lifted into space
   lab fuzz rounded --drawings 1000                   data with 3 to 16 digits; in space with --suite space
   lab fuzz full-rank --drawings 2000                 full rank near a lower one
+  lab fuzz numbers --scenes 1000                     reactions on random motions, compared with other solutions
 
 Exit code 1 if one of them fails.";

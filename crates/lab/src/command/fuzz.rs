@@ -16,7 +16,7 @@ use crate::fuzz::exact::rounded::{self, Suite};
 use crate::fuzz::exact::tally;
 use crate::fuzz::scenes::Space;
 use crate::fuzz::watch::Limits;
-use crate::fuzz::{input, passages, trial};
+use crate::fuzz::{input, numbers, passages, trial};
 
 #[derive(Subcommand)]
 pub(super) enum Fuzz {
@@ -94,6 +94,9 @@ pub(super) enum Fuzz {
         #[arg(long, default_value_t = 0)]
         from: u64,
     },
+    /// Compares numbers on random motions with other solutions; exit code 1 if one that is called
+    /// determined differs, or a mechanism that moves is refused
+    Numbers(Scenes),
     /// Tries inputs one after the other and answers each with a letter: what `run` begins
     #[command(hide = true)]
     Work {
@@ -130,6 +133,33 @@ pub(super) struct Scenes {
 }
 
 impl Scenes {
+    /// Motions.
+    fn examine_numbers(&self, console: &Console<'_>) -> Outcome {
+        let Self { scenes, seed, .. } = *self;
+        if let Some(number) = self.show {
+            let (scene, findings) = numbers::tally::outcome(seed, number);
+            let mut page = format!("# {}\n", scene.family);
+            for finding in &findings.all {
+                page.push_str(&format!("# {}: {}\n", finding.kind.name(), finding.text));
+            }
+            for (what, count) in &findings.counts {
+                page.push_str(&format!("# {count} {}\n", what.name()));
+            }
+            return console.print(&(page + &scene.text));
+        }
+        let clock = Instant::now();
+        let bar = progress(scenes);
+        let tally = numbers::tally::Tally::of(seed, self.from, scenes, || bar.inc(1));
+        bar.finish_and_clear();
+        let seconds = clock.elapsed().as_secs_f64();
+        let head = format!("seed {seed}: {scenes} mechanisms in {seconds:.1} s\n");
+        console.print(&(head + &tally.describe()))?;
+        if let Some(folder) = &self.keep {
+            tally.keep(seed, folder).map_err(stopped)?;
+        }
+        passed(tally.passes())
+    }
+
     fn examine(&self, suite: tally::Suite, console: &Console<'_>) -> Outcome {
         let Self { scenes, seed, .. } = *self;
         if let Some(number) = self.show {
@@ -257,6 +287,7 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
             console.write(|mut out| answer(&mut out, &text))
         }
         Fuzz::Exact { suite, scenes } => scenes.examine(*suite, console),
+        Fuzz::Numbers(scenes) => scenes.examine_numbers(console),
         Fuzz::Rounded { suite, drawings } => drawings.examine(*suite, console),
         Fuzz::FullRank(drawings) => drawings.examine(Suite::FullRank, console),
         Fuzz::Passages { runs, seed, from } => {

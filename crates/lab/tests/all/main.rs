@@ -11,6 +11,7 @@ mod invariance;
 mod known;
 mod large_files;
 mod methods;
+mod numbers;
 mod quick;
 mod solvers;
 mod space;

@@ -1,0 +1,161 @@
+//! One mechanism: its run, what is called determined on it, and the oracle at the same states.
+
+mod choices;
+mod data;
+mod runs;
+mod states;
+
+use model::{Mechanism, System};
+use nalgebra::DVector;
+use solvability::Compliance;
+
+use super::findings::{Count, Findings, Kind};
+use super::forms::{Form, forms};
+use super::oracle::{Fault, Instant};
+use super::refusals;
+use super::run::{Row, Run, prepared, run};
+use super::sets::{compliances, dropped, elastic, without};
+use super::verdicts::{Judge, OnRun, Product};
+use crate::numbers::Numbers;
+
+/// Agreement at one state, of the load.
+const AT_STATE: f64 = 1e-8;
+
+/// A load below this (N) counts as zero.
+const LOAD: f64 = 1e-9;
+
+/// The findings at a scene; the numbers choose rows to drop and compliances.
+#[must_use]
+pub fn examine(text: &str, numbers: &mut Numbers) -> Findings {
+    examine_by(&Product, text, numbers)
+}
+
+/// Like [`examine`], with the verdicts of another judge.
+#[must_use]
+pub fn examine_by(judge: &dyn Judge, text: &str, numbers: &mut Numbers) -> Findings {
+    let mut findings = Findings::default();
+    let study = match prepared(text, None) {
+        Ok(study) => study,
+        Err(error) => {
+            refusals::at_start(text, &error, numbers, &mut findings);
+            return findings;
+        }
+    };
+    let run = run(study);
+    match &run.stopped {
+        None => findings.count(Count::Ran, 1),
+        Some(error) => refusals::on_the_way(&run, error, numbers, &mut findings),
+    }
+    Examined::of(judge, text, &run, (numbers, &mut findings));
+    findings
+}
+
+/// A run with all that is compared.
+struct Examined<'a> {
+    mechanism: &'a Mechanism,
+    /// Rows of the scene with the oracle's solutions: every other row of the run.
+    states: Vec<(&'a Row, Instant, Vec<Form>)>,
+    verdicts: Vec<OnRun>,
+    sets: Vec<Vec<usize>>,
+    compliances: Vec<Compliance>,
+}
+
+impl<'a> Examined<'a> {
+    fn of(
+        judge: &dyn Judge,
+        text: &str,
+        run: &'a Run,
+        (numbers, findings): (&mut Numbers, &mut Findings),
+    ) {
+        let mechanism = &run.study.prepared.mechanism;
+        let mut states = Vec::new();
+        for row in run.rows.iter().step_by(2) {
+            match Instant::new(mechanism, (row.t_before, &row.q, &row.v)) {
+                Ok(instant) => {
+                    let mut s = mechanism.scratch();
+                    mechanism.pose(row.t_before, &row.q, &mut s);
+                    mechanism.c(&mut s);
+                    let forms = forms(mechanism, &s, instant.size);
+                    states.push((row, instant, forms));
+                }
+                Err(Fault::Unclear) => findings.count(Count::Unclear, 1),
+                Err(fault) => {
+                    let text = format!("t = {} s: the oracle has {fault:?}", row.t);
+                    findings.note(Kind::Failed, text);
+                }
+            }
+        }
+        // At isolated instants the rank is lower; there are no reactions.
+        let rank = states.iter().map(|(_, i, _)| i.rank).max().unwrap_or(0);
+        states.retain(|(_, instant, _)| instant.rank == rank);
+        let Some((_, instant, forms)) = states.get(states.len() / 2) else {
+            return;
+        };
+        let verdicts = match judge.on_run(run, forms) {
+            Ok(verdicts) => verdicts,
+            Err(error) => return findings.note(Kind::Failed, error.to_string()),
+        };
+        let p = instant.redundancy();
+        findings.count(Count::Redundant, usize::from(p > 0));
+        let wanted = match p {
+            0 => 0,
+            1 => 2,
+            _ => 3,
+        };
+        let mut sets: Vec<Vec<usize>> = (0..wanted).map(|_| dropped(instant, numbers)).collect();
+        sets.dedup();
+        let compliances = compliances(mechanism, instant.size, numbers);
+        let examined = Self {
+            mechanism,
+            states,
+            verdicts,
+            sets,
+            compliances,
+        };
+        let which = numbers.below(examined.states.len());
+        examined.at_states(findings);
+        examined.choices(which, findings);
+        examined.between_runs(text, findings);
+        examined.displaced(judge, which, findings);
+    }
+
+    fn name(&self, form: &Form) -> String {
+        let group = &self.mechanism.layout().groups[form.group];
+        format!("{}.{}", group.name, form.name)
+    }
+
+    /// All solutions of a state: without the rows of each set, and with elastic joints.
+    fn solutions(&self, instant: &Instant, forms: &[Form]) -> Vec<DVector<f64>> {
+        let least = instant.least();
+        let mut all: Vec<DVector<f64>> = self
+            .sets
+            .iter()
+            .filter_map(|rows| without(instant, least, rows))
+            .collect();
+        all.extend(elastic(
+            instant,
+            least,
+            (self.mechanism, forms),
+            &self.compliances,
+        ));
+        all
+    }
+}
+
+/// What an agreement is a share of: the load; for a fragile component the larger of its value and
+/// of the load times its sensitivity.
+fn reference(own: &OnRun, values: &[f64], load: f64) -> f64 {
+    if !own.is_fragile() {
+        return load;
+    }
+    let sensitivity = own.sensitivity.unwrap_or(1.0).max(1.0);
+    values
+        .iter()
+        .fold(load * sensitivity, |a, x| a.max(x.abs()))
+}
+
+fn span(values: &[f64]) -> f64 {
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    if values.len() < 2 { 0.0 } else { most - least }
+}

@@ -1,0 +1,94 @@
+//! (a): the choices of the product at one state, compared with the same ones of the oracle.
+
+use std::sync::Arc;
+
+use model::Known;
+use nalgebra::DVector;
+use solvability::{Choice, Questions, Value, analyse_known, solution};
+
+use super::{AT_STATE, Examined, LOAD, reference};
+use crate::fuzz::numbers::findings::{Findings, Kind};
+use crate::fuzz::numbers::moves::ranks;
+use crate::fuzz::numbers::run::RTOL;
+use crate::fuzz::numbers::sets::{elastic, without};
+use crate::numbers::Numbers;
+
+/// Agreement of chosen numbers, of the largest of them.
+const CHOSEN: f64 = 1e-7;
+
+impl Examined<'_> {
+    /// The choices of the product at one state, compared with the same ones of the oracle.
+    pub(super) fn choices(&self, which: usize, findings: &mut Findings) {
+        let (row, instant, forms) = &self.states[which];
+        let state = (row.t_before, &row.q[..], &row.v[..]);
+        let known = if row.t == 0.0 {
+            Known::AsStored
+        } else {
+            Known::To(RTOL)
+        };
+        let Ok(analysis) = analyse_known(self.mechanism, row.t_before, &row.q, known) else {
+            return;
+        };
+        let solved = match solution(self.mechanism, state, &analysis.decision) {
+            Ok(solved) => solved,
+            Err(error) => {
+                let at = (row.t_before, &row.q[..]);
+                let [here, near] = ranks(self.mechanism, at, &mut Numbers::new(1));
+                // At a singular configuration there may be none.
+                if here == near {
+                    let text = format!("no solution at t = {} s: {error}", row.t);
+                    findings.note(Kind::Failed, text);
+                }
+                return;
+            }
+        };
+        let questions = Questions::new(self.mechanism, &row.q, Arc::new(analysis));
+        let least = instant.least();
+        let mut asked: Vec<(Choice, Option<DVector<f64>>)> = self
+            .sets
+            .iter()
+            .map(|rows| {
+                (
+                    Choice::Elimination(rows.clone()),
+                    without(instant, least, rows),
+                )
+            })
+            .collect();
+        let own = elastic(instant, least, (self.mechanism, forms), &self.compliances);
+        asked.push((Choice::Compliance(self.compliances.clone()), own));
+        for (choice, own) in asked {
+            let Some(own) = own else { continue };
+            let found = match questions.distribute(&solved, &choice) {
+                Ok(found) => found,
+                Err(error) => {
+                    let text = format!("{choice:?} at t = {} s: {error}", row.t);
+                    findings.note(Kind::Choices, text);
+                    continue;
+                }
+            };
+            let values: Vec<f64> = forms
+                .iter()
+                .map(|form| instant.scaled(form).dot(&own))
+                .collect();
+            let largest = values.iter().fold(instant.load, |a, x| a.max(x.abs()));
+            for ((form, right), verdict) in forms.iter().zip(&values).zip(&self.verdicts) {
+                let components = &found.reactions[form.group].components;
+                let of = components.iter().find(|(name, _)| *name == form.name);
+                let Some((_, value)) = of else { continue };
+                let (given, permitted) = match value {
+                    Value::Unique(x) => (x, AT_STATE * reference(verdict, &[*right], instant.load)),
+                    Value::Chosen { value, .. } => (value, CHOSEN * largest),
+                };
+                if (form.unit * given - right).abs() > permitted.max(AT_STATE * LOAD) {
+                    let text = format!(
+                        "`{}` by {choice:?} at t = {} s: {:?} N, right {right:?} N",
+                        self.name(form),
+                        row.t,
+                        form.unit * given
+                    );
+                    findings.note(Kind::Choices, text);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! (a) and (b): the solutions at each state, and the product's value there.
+
+use super::{AT_STATE, Examined, LOAD, reference, span};
+use crate::fuzz::numbers::findings::{Count, Findings, Kind};
+use crate::fuzz::numbers::forms::Form;
+use crate::fuzz::numbers::oracle::Instant;
+use crate::fuzz::numbers::run::Row;
+use crate::fuzz::numbers::verdicts::{OnRun, Word};
+
+/// Two solutions differ where a component does by more than this share of the load.
+const DIFFERS: f64 = 1e-6;
+
+/// A component is free if this share of it lies in the left null space, divided by the smallest
+/// singular value: that is how well states on the constraints to 1e-12 know the null space.
+const FREE: f64 = 1e-10;
+
+impl Examined<'_> {
+    /// (a) and (b) at each state.
+    pub(super) fn at_states(&self, findings: &mut Findings) {
+        // By component and stretch: whether solutions differ there, whether it is free there.
+        let stretches = self.verdicts.first().map_or(0, |v| v.stretches.len());
+        let mut differs = vec![vec![[false; 2]; stretches]; self.verdicts.len()];
+        let mut seen = vec![false; stretches];
+        for (row, instant, forms) in &self.states {
+            let solutions = self.solutions(instant, forms);
+            for (k, (form, own)) in forms.iter().zip(&self.verdicts).enumerate() {
+                let Some(at) = own.stretches.iter().rposition(|s| s.from <= row.t) else {
+                    continue;
+                };
+                let w = instant.scaled(form);
+                let values: Vec<f64> = solutions.iter().map(|l| w.dot(l)).collect();
+                let span = span(&values);
+                let is_free = instant.margin(form, forms) > FREE / instant.sigma;
+                if own.is_determined(row.t) {
+                    findings.count(Count::Values, 1);
+                    let permitted = AT_STATE * reference(own, &values, instant.load);
+                    if span > permitted.max(AT_STATE * LOAD) || is_free {
+                        let text = format!(
+                            "`{}` at t = {} s: {values:?} N, load {:.3e} N, margin {:.1e}, σ {:.1e}",
+                            self.name(form),
+                            row.t,
+                            instant.load,
+                            instant.margin(form, forms),
+                            instant.sigma
+                        );
+                        findings.note(Kind::States, text);
+                    }
+                    self.value(row, instant, (form, own), findings);
+                } else {
+                    seen[at] = true;
+                    differs[k][at][0] |= span > DIFFERS * instant.load.max(LOAD);
+                    differs[k][at][1] |= is_free;
+                }
+            }
+        }
+        for (k, own) in self.verdicts.iter().enumerate() {
+            for (at, stretch) in own.stretches.iter().enumerate().filter(|(at, _)| seen[*at]) {
+                let [differs, is_free] = differs[k][at];
+                match stretch.word {
+                    Word::Unique => {}
+                    Word::Undecided => findings.count(Count::Undecided, 1),
+                    Word::NotUnique => {
+                        findings.count(Count::NotDetermined, 1);
+                        findings.count(Count::Differs, usize::from(differs));
+                        findings.count(Count::NoLoad, usize::from(!differs && is_free));
+                        if !differs && !is_free {
+                            let name = self.name(&self.states[0].2[k]);
+                            let text = format!("`{name}` in {} … {} s", stretch.from, stretch.to);
+                            findings.note(Kind::Unexplained, text);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The value of the product for a determined component.
+    fn value(
+        &self,
+        row: &Row,
+        instant: &Instant,
+        (form, own): (&Form, &OnRun),
+        findings: &mut Findings,
+    ) {
+        let Some(reaction) = row.reactions.get(form.group) else {
+            return;
+        };
+        let (found, right) = (
+            form.of(self.mechanism, reaction),
+            instant.scaled(form).dot(instant.least()),
+        );
+        let permitted = AT_STATE * reference(own, &[right], instant.load);
+        if !found.is_nan() && (found - right).abs() > permitted.max(AT_STATE * LOAD) {
+            let text = format!(
+                "`{}` at t = {} s: {found:?} N, right {right:?} N, load {:.3e} N, σ {:.1e}",
+                self.name(form),
+                row.t,
+                instant.load,
+                instant.sigma
+            );
+            findings.note(Kind::Values, text);
+        }
+    }
+}

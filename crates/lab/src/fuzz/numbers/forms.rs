@@ -1,0 +1,73 @@
+//! Components of reactions as linear forms of the multipliers.
+
+use model::{ConstraintId, Mechanism, Reaction, Scratch, System};
+
+/// A component of the reaction of a joint or drive.
+#[derive(Clone, Debug)]
+pub struct Form {
+    /// The joint or drive, as index of the groups of the layout.
+    pub group: usize,
+    /// Its name: `Fx`, `T`, `N`, …
+    pub name: &'static str,
+    /// Its index among the components of the space; `None` for the named component.
+    pub index: Option<usize>,
+    /// What makes it a force: 1, or 1/size for a torque.
+    pub unit: f64,
+    /// Coefficients by row of C.
+    pub coefficients: Vec<(usize, f64)>,
+}
+
+impl Form {
+    /// The value of this component in a reaction, as a force (N).
+    #[must_use]
+    pub fn of(&self, mechanism: &Mechanism, reaction: &Reaction) -> f64 {
+        let value = match self.index {
+            Some(k) => reaction.components(mechanism.space()).nth(k),
+            None => reaction.component,
+        };
+        self.unit * value.unwrap_or(f64::NAN)
+    }
+}
+
+/// All components that are not identically zero, at the poses of a scratch. Named components of
+/// joints are forces; those of drives of an angle are torques.
+#[must_use]
+pub fn forms(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<Form> {
+    let (layout, reactions) = (mechanism.layout(), mechanism.reactions(s));
+    let mut all = Vec::new();
+    for id in layout.constraint_ids() {
+        let group = &layout.groups[id.0];
+        let torques = group.space.torques();
+        let mut add = |name: &'static str, index: Option<usize>, is_torque: bool| {
+            let unit = if is_torque { 1.0 / size } else { 1.0 };
+            let Some(own) = reactions.component_coefficients(id, name) else {
+                return;
+            };
+            all.push(Form {
+                group: id.0,
+                name,
+                index,
+                unit,
+                coefficients: group
+                    .rows
+                    .iter()
+                    .zip(own.iter().map(|x| unit * x))
+                    .collect(),
+            });
+        };
+        for k in group.components() {
+            add(group.space.components()[k], Some(k), torques.contains(&k));
+        }
+        if let Some(name) = group.spec.component {
+            add(name, None, group.is_drive() && !has_force(mechanism, id));
+        }
+    }
+    all
+}
+
+/// Whether a component of a reaction is a force.
+fn has_force(mechanism: &Mechanism, id: ConstraintId) -> bool {
+    let group = &mechanism.layout().groups[id.0];
+    let forces = group.space.forces();
+    group.components().iter().any(|k| forces.contains(k))
+}

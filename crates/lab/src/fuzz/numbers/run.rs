@@ -1,0 +1,98 @@
+//! Runs of the product: the states that it writes, and the reactions there.
+
+use std::ops::ControlFlow;
+
+use dynamics::{MotionError, MotionOptions, simulate};
+use model::{Reaction, Registry, System};
+use pfaff::{AssembledScene, Overrides, Study, StudyError};
+
+/// Relative and absolute tolerance of all runs.
+pub const RTOL: f64 = 1e-11;
+const ATOL: f64 = 1e-13;
+
+/// Steps after which a run ends, with the rows that it has.
+const STEPS: u64 = 4000;
+
+/// A written row.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Time (s).
+    pub t: f64,
+    /// The time at which functions of time are evaluated: just before a break.
+    pub t_before: f64,
+    /// Coordinates.
+    pub q: Vec<f64>,
+    /// Velocities.
+    pub v: Vec<f64>,
+    /// Reactions; empty if there are none at this state.
+    pub reactions: Vec<Reaction>,
+}
+
+/// A run.
+pub struct Run {
+    /// The study that ran.
+    pub study: Study,
+    /// Its rows, twice as many as the scene asks for.
+    pub rows: Vec<Row>,
+    /// Times at which verdicts may change.
+    pub cuts: Vec<f64>,
+    /// The time that it reached (s).
+    pub reached: f64,
+    /// Why it stopped before its end.
+    pub stopped: Option<MotionError>,
+}
+
+/// Prepares a scene; rows to drop from 0.
+///
+/// # Errors
+/// If the product refuses it.
+pub fn prepared(text: &str, drop: Option<&[usize]>) -> Result<Study, StudyError> {
+    let overrides = Overrides {
+        rtol: Some(RTOL),
+        atol: Some(ATOL),
+        max_steps: Some(STEPS),
+        drop: drop.map(<[usize]>::to_vec),
+        ..Overrides::default()
+    };
+    AssembledScene::read("scene.toml", text, &Registry::standard())?.prepare(&overrides)
+}
+
+/// Runs a study.
+#[must_use]
+pub fn run(study: Study) -> Run {
+    let options = study
+        .options
+        .clone()
+        .unwrap_or_else(|| MotionOptions::to(0.0));
+    let options = MotionOptions {
+        output_step: 0.5 * options.output_step,
+        ..options
+    };
+    let breaks = study.prepared.mechanism.layout().break_times.clone();
+    let mut rows = Vec::new();
+    let outcome = simulate(&study.prepared, &options, |sample| {
+        let t = sample.t;
+        let is_break = t > 0.0 && breaks.contains(&t);
+        rows.push(Row {
+            t,
+            t_before: if is_break { t.next_down() } else { t },
+            q: sample.q.to_vec(),
+            v: sample.v.to_vec(),
+            reactions: sample.reactions().unwrap_or_default(),
+        });
+        Ok(ControlFlow::Continue(()))
+    });
+    let (summary, stopped) = match outcome {
+        Ok(summary) => (summary, None),
+        Err(failure) => (failure.summary, Some(failure.error)),
+    };
+    let mut cuts = breaks;
+    cuts.extend(summary.events.iter().map(|e| e.time));
+    Run {
+        study,
+        rows,
+        cuts,
+        reached: summary.t,
+        stopped,
+    }
+}

@@ -1,0 +1,303 @@
+//! A mechanism that is being written as the text of a scene: pieces are drawn in a plane of their
+//! own, which lies in the plane of the scene or anywhere in space.
+
+use std::fmt::Write;
+
+use crate::fuzz::scenes::Space;
+use crate::numbers::Numbers;
+
+/// A point or direction in the plane of a piece.
+pub(super) type Flat = [f64; 2];
+
+/// A body by its name, or the ground.
+pub(super) type Side = String;
+
+/// The ground.
+pub(super) fn ground() -> Side {
+    "ground".to_owned()
+}
+
+/// Where the plane of a piece lies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    origin: [f64; 3],
+    /// The first and the second axis of the plane, and its normal.
+    axes: [[f64; 3]; 3],
+}
+
+impl Place {
+    fn point(&self, [x, y]: Flat, height: f64) -> [f64; 3] {
+        let [u, v, n] = self.axes;
+        std::array::from_fn(|k| self.origin[k] + x * u[k] + y * v[k] + height * n[k])
+    }
+
+    fn direction(&self, [x, y]: Flat) -> [f64; 3] {
+        let [u, v, _] = self.axes;
+        std::array::from_fn(|k| x * u[k] + y * v[k])
+    }
+}
+
+/// The scene so far.
+pub(super) struct Sketch<'n> {
+    pub(super) space: Space,
+    pub(super) numbers: &'n mut Numbers,
+    text: String,
+    bodies: usize,
+    joints: usize,
+    drives: usize,
+    forces: usize,
+    /// Joints that a drive may move: name and measure.
+    pub(super) measured: Vec<(String, &'static str)>,
+}
+
+impl<'n> Sketch<'n> {
+    pub(super) fn new(space: Space, numbers: &'n mut Numbers) -> Self {
+        Self {
+            space,
+            numbers,
+            text: String::new(),
+            bodies: 0,
+            joints: 0,
+            drives: 0,
+            forces: 0,
+            measured: Vec::new(),
+        }
+    }
+
+    /// The text of all tables.
+    pub(super) fn finish(self) -> String {
+        self.text
+    }
+
+    pub(super) fn line(&mut self, key: &str, value: &str) {
+        // Writing to a `String` cannot fail.
+        let _ = writeln!(self.text, "{key} = {value}");
+    }
+
+    pub(super) fn table(&mut self, head: &str) {
+        let _ = writeln!(self.text, "\n{head}");
+    }
+
+    /// One of these with equal chances.
+    pub(super) fn one<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.numbers.below(from.len())]
+    }
+
+    /// A length in steps of 5 cm.
+    pub(super) fn length(&mut self, low: i32, high: i32) -> f64 {
+        0.05 * f64::from(self.numbers.between(low, high))
+    }
+
+    /// A unit vector: in three of five cases upright, straight or square.
+    pub(super) fn heading(&mut self) -> Flat {
+        match self.numbers.below(10) {
+            0 | 1 => [0.0, 1.0],
+            2 => [0.0, -1.0],
+            3 => [1.0, 0.0],
+            4 => [-1.0, 0.0],
+            5 => [0.6, 0.8],
+            _ => self.any_heading(),
+        }
+    }
+
+    /// A unit vector without symmetry.
+    pub(super) fn any_heading(&mut self) -> Flat {
+        let (sin, cos) = self.numbers.within(0.1, 6.1).sin_cos();
+        [cos, sin]
+    }
+
+    /// A plane for a piece: in the scene of the plane, the plane itself; in space one of the planes
+    /// of the axes, or any.
+    pub(super) fn place(&mut self) -> Place {
+        let origin = [0, 1, 2].map(|_| self.numbers.below(3) as f64 * 0.25);
+        if self.space == Space::Plane {
+            let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            return Place {
+                origin: [origin[0], origin[1], 0.0],
+                axes,
+            };
+        }
+        let axes = match self.numbers.below(4) {
+            0 => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            1 => [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]],
+            2 => [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
+            _ => turned(self.numbers.within(0.0, 6.2), self.numbers.within(0.3, 2.8)),
+        };
+        Place { origin, axes }
+    }
+
+    /// A point in the axes of the ground.
+    pub(super) fn written(&self, p: [f64; 3]) -> String {
+        match self.space {
+            Space::Plane => format!("[{:?}, {:?}]", p[0], p[1]),
+            Space::Space => format!("[{:?}, {:?}, {:?}]", p[0], p[1], p[2]),
+        }
+    }
+
+    pub(super) fn point(&self, place: &Place, p: Flat) -> String {
+        self.written(place.point(p, 0.0))
+    }
+
+    /// A body with its mass centre at a point.
+    pub(super) fn body(&mut self, place: &Place, centre: Flat) -> Side {
+        self.moving_body(place, centre, None)
+    }
+
+    /// A body that may have an angular velocity about the normal of the plane (rad/s).
+    pub(super) fn moving_body(&mut self, place: &Place, centre: Flat, omega: Option<f64>) -> Side {
+        let name = format!("b{}", self.bodies);
+        self.bodies += 1;
+        let mass = self.numbers.between(2, 40) as f64 / 10.0;
+        let arm = self.numbers.within(0.1, 0.4);
+        self.table("[[body]]");
+        self.line("name", &format!("\"{name}\""));
+        self.line("mass", &format!("{mass:?}"));
+        let about = mass * arm * arm;
+        match self.space {
+            Space::Plane => self.line("inertia", &format!("{about:?}")),
+            Space::Space => {
+                let inertia = [about, 1.25 * about, 1.5 * about];
+                self.line("inertia", &format!("{inertia:?}"));
+            }
+        }
+        let at = self.point(place, centre);
+        self.line("position", &at);
+        if let Some(omega) = omega {
+            self.turning(place, omega);
+        }
+        name
+    }
+
+    fn turning(&mut self, place: &Place, omega: f64) {
+        let value = match self.space {
+            Space::Plane => format!("{omega:?}"),
+            Space::Space => self.written(place.axes[2].map(|n| n * omega)),
+        };
+        self.line("angular_velocity", &value);
+    }
+
+    /// The velocities of the body that was written last.
+    pub(super) fn velocity(&mut self, place: &Place, v: Flat, omega: f64) {
+        let value = self.written(place.direction(v));
+        self.line("velocity", &value);
+        self.turning(place, omega);
+    }
+
+    /// A joint of two bodies, without its place.
+    pub(super) fn joint(&mut self, kind: &str, [a, b]: [&Side; 2]) -> String {
+        let name = self.head(kind);
+        self.line("bodies", &format!("[\"{a}\", \"{b}\"]"));
+        name
+    }
+
+    /// A joint of one body, without its place.
+    pub(super) fn single(&mut self, kind: &str, body: &Side) -> String {
+        let name = self.head(kind);
+        self.line("body", &format!("\"{body}\""));
+        name
+    }
+
+    /// A coupling of the angles of two joints, without its ratio.
+    pub(super) fn coupling(&mut self, [a, b]: [&str; 2]) {
+        self.head("coupling");
+        self.line("measures", &format!("[\"{a}.angle\", \"{b}.angle\"]"));
+    }
+
+    fn head(&mut self, kind: &str) -> String {
+        let name = format!("j{}", self.joints);
+        self.joints += 1;
+        self.table("[[joint]]");
+        self.line("name", &format!("\"{name}\""));
+        self.line("type", &format!("\"{kind}\""));
+        name
+    }
+
+    /// A key with a point `height` above the plane of the piece.
+    pub(super) fn at_height(&mut self, place: &Place, p: Flat, height: f64) {
+        let at = self.written(place.point(p, height));
+        self.line("at", &at);
+    }
+
+    /// A key with a direction in the plane of the piece.
+    pub(super) fn direction(&mut self, key: &str, place: &Place, d: Flat) {
+        let value = self.written(place.direction(d));
+        self.line(key, &value);
+        self.in_ground_axes();
+    }
+
+    /// A key with the normal of the plane of the piece.
+    pub(super) fn normal(&mut self, key: &str, place: &Place) {
+        let value = self.written(place.axes[2]);
+        self.line(key, &value);
+        self.in_ground_axes();
+    }
+
+    /// Bodies of the plane have the axes of the ground at the start.
+    fn in_ground_axes(&mut self) {
+        if self.space == Space::Space {
+            self.line("frame", "\"global\"");
+        }
+    }
+
+    /// A bar without mass between two points.
+    pub(super) fn bar(&mut self, place: &Place, pair: [&Side; 2], [p, q]: [Flat; 2]) {
+        self.joint("distance", pair);
+        let ends = [p, q].map(|p| self.point(place, p));
+        self.line("at", &format!("[{}, {}]", ends[0], ends[1]));
+    }
+
+    /// A bar between two points at heights above the plane.
+    pub(super) fn bar_in_space(&mut self, place: &Place, pair: [&Side; 2], ends: [(Flat, f64); 2]) {
+        self.joint("distance", pair);
+        let ends = ends.map(|(p, height)| self.written(place.point(p, height)));
+        self.line("at", &format!("[{}, {}]", ends[0], ends[1]));
+    }
+
+    /// A drive of a joint.
+    pub(super) fn drive(&mut self, joint: &str, measure: &str, motion: &str) {
+        let name = format!("d{}", self.drives);
+        self.drives += 1;
+        self.table("[[drive]]");
+        self.line("name", &format!("\"{name}\""));
+        self.line("joint", &format!("\"{joint}\""));
+        self.line("type", &format!("\"{measure}\""));
+        self.line("motion", motion);
+    }
+
+    /// A spring between two points.
+    pub(super) fn spring(&mut self, place: &Place, pair: [&Side; 2], [p, q]: [Flat; 2]) {
+        let name = format!("f{}", self.forces);
+        self.forces += 1;
+        let stiffness = self.numbers.between(10, 400);
+        let damping = self.numbers.below(5);
+        self.table("[[force]]");
+        self.line("name", &format!("\"{name}\""));
+        self.line("type", "\"spring-damper\"");
+        self.line("bodies", &format!("[\"{}\", \"{}\"]", pair[0], pair[1]));
+        let ends = [p, q].map(|p| self.point(place, p));
+        self.line("at", &format!("[{}, {}]", ends[0], ends[1]));
+        self.line("stiffness", &format!("{stiffness}"));
+        self.line("damping", &format!("{damping}"));
+        self.line("free_length", "0.3");
+    }
+}
+
+/// Axes turned about z by the first angle, then about the new x by the second.
+fn turned(first: f64, second: f64) -> [[f64; 3]; 3] {
+    let ((s, c), (sin, cos)) = (first.sin_cos(), second.sin_cos());
+    [
+        [c, s, 0.0],
+        [-s * cos, c * cos, sin],
+        [s * sin, -c * sin, cos],
+    ]
+}
+
+/// `p + factor·d`
+pub(super) fn along([x, y]: Flat, factor: f64, d: Flat) -> Flat {
+    [x + factor * d[0], y + factor * d[1]]
+}
+
+/// The direction turned by a quarter.
+pub(super) fn across([x, y]: Flat) -> Flat {
+    [-y, x]
+}

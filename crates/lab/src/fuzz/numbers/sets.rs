@@ -1,0 +1,114 @@
+//! Solutions at one state: one for each admissible set of dropped rows, one for elastic joints.
+
+use model::{ConstraintId, Mechanism, System};
+use nalgebra::{DMatrix, DVector};
+use solvability::Compliance;
+
+use super::decomposition::Decomposition;
+use super::forms::Form;
+use super::oracle::Instant;
+use crate::numbers::Numbers;
+
+/// A row may be dropped next if its part in the left null space that remains is at least this share
+/// of the largest one: the solutions are then at most some hundred times the loads.
+const SHARE: f64 = 0.1;
+
+/// Rows are not admissible if their part in the left null space is singular to this share.
+const NEARLY_NOT: f64 = 1e-3;
+
+/// Components do not determine a solution that changes them by less than this share of others.
+const HIDDEN: f64 = 1e-6;
+
+/// Random rows whose removal leaves the rank as it is, as many as there are redundant ones.
+#[must_use]
+pub fn dropped(instant: &Instant, numbers: &mut Numbers) -> Vec<usize> {
+    let mut rest = instant.null.transpose();
+    let mut chosen = Vec::new();
+    for _ in 0..rest.nrows() {
+        let lengths: Vec<f64> = rest.column_iter().map(|c| c.norm()).collect();
+        let largest = lengths.iter().copied().fold(0.0, f64::max);
+        let rows: Vec<usize> = (0..lengths.len())
+            .filter(|&i| lengths[i] >= SHARE * largest)
+            .collect();
+        let row = rows[numbers.below(rows.len())];
+        chosen.push(row);
+        let direction = rest.column(row).normalize();
+        let shares = direction.transpose() * &rest;
+        rest -= direction * shares;
+    }
+    chosen.sort_unstable();
+    chosen
+}
+
+/// The scaled multipliers without these rows. `None` if they are not admissible at this state, or
+/// so nearly not that the solution is large.
+#[must_use]
+pub fn without(instant: &Instant, from: &DVector<f64>, rows: &[usize]) -> Option<DVector<f64>> {
+    let z = &instant.null;
+    if rows.len() != z.ncols() {
+        return None;
+    }
+    if rows.is_empty() {
+        return Some(from.clone());
+    }
+    let own = DMatrix::from_fn(rows.len(), rows.len(), |i, j| z[(rows[i], j)]);
+    let wanted = DVector::from_fn(rows.len(), |i, _| from[rows[i]]);
+    let own = Decomposition::of(&own).above(NEARLY_NOT);
+    let is_admissible =
+        own.rank() == rows.len() && own.values.last().is_some_and(|x| *x > NEARLY_NOT);
+    is_admissible.then(|| from - z * own.solve(&wanted))
+}
+
+/// A compliance of each joint and drive, within a factor of four.
+#[must_use]
+pub fn compliances(mechanism: &Mechanism, size: f64, numbers: &mut Numbers) -> Vec<Compliance> {
+    let mut one = |unit: f64| unit * numbers.within(0.5, 2.0);
+    let ids = mechanism.layout().constraint_ids();
+    ids.map(|reaction| Compliance {
+        reaction,
+        along: [0; 3].map(|_| one(1e-6)),
+        rotation: one(1e-6 / (size * size)),
+    })
+    .collect()
+}
+
+/// The scaled multipliers that elastic joints select: the least of `½·Σ compliance·component²`.
+/// `None` if the components do not determine them.
+#[must_use]
+pub fn elastic(
+    instant: &Instant,
+    from: &DVector<f64>,
+    (mechanism, forms): (&Mechanism, &[Form]),
+    compliances: &[Compliance],
+) -> Option<DVector<f64>> {
+    let z = &instant.null;
+    if z.ncols() == 0 {
+        return Some(from.clone());
+    }
+    let space = mechanism.layout().space;
+    let weight = |form: &Form| {
+        let k = form.index?;
+        let joint = compliances
+            .iter()
+            .find(|c| c.reaction == ConstraintId(form.group))?;
+        let compliance = if space.forces().contains(&k) {
+            joint.along[space.axis_of(k)]
+        } else {
+            joint.rotation
+        };
+        // Forms are forces: torques have been divided by the size.
+        Some((compliance / form.unit.powi(2) * 1e6).sqrt())
+    };
+    let terms: Vec<(DVector<f64>, f64)> = forms
+        .iter()
+        .filter_map(|form| Some((instant.scaled(form), weight(form)?)))
+        .collect();
+    let mut a = DMatrix::zeros(terms.len(), z.ncols());
+    let mut b = DVector::zeros(terms.len());
+    for (k, (w, weight)) in terms.iter().enumerate() {
+        a.set_row(k, &((w.transpose() * z) * *weight));
+        b[k] = weight * w.dot(from);
+    }
+    let own = Decomposition::of(&a).above(HIDDEN);
+    (own.rank() == z.ncols()).then(|| from - z * own.solve(&b))
+}

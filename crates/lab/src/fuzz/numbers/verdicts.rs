@@ -1,0 +1,192 @@
+//! What the product calls determined on a run. Nothing here is a decision of the laboratory: it is
+//! the side that is examined.
+//!
+//! Between cuts of a run (events, breaks of functions of time) a component is `unique` if its
+//! verdict is at every state of the open interval, `not unique` if it is at one, else undecided.
+
+use model::{Known, Mechanism};
+use solvability::{Analysis, AnalysisError, Verdict, analyse_known};
+
+use super::forms::Form;
+use super::run::{RTOL, Row, Run};
+
+/// A verdict in one word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Word {
+    /// Determined.
+    Unique,
+    /// Not decided.
+    Undecided,
+    /// A matter of choice.
+    NotUnique,
+}
+
+/// A component on a part of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// First time (s), which belongs to it.
+    pub from: f64,
+    /// Last time (s), which belongs to it only at the end of the run.
+    pub to: f64,
+    /// Its verdict.
+    pub word: Word,
+}
+
+/// The verdicts on one component along a run.
+#[derive(Clone, Debug)]
+pub struct OnRun {
+    /// From the first to the last time, without gaps.
+    pub stretches: Vec<Stretch>,
+    /// The largest sensitivity at the states that were examined, if it is known.
+    pub sensitivity: Option<f64>,
+}
+
+impl OnRun {
+    /// The stretch that contains a time: at a cut the one that begins there.
+    #[must_use]
+    pub fn at(&self, t: f64) -> Option<&Stretch> {
+        self.stretches.iter().rev().find(|s| s.from <= t)
+    }
+
+    /// Whether it is determined at a time.
+    #[must_use]
+    pub fn is_determined(&self, t: f64) -> bool {
+        self.at(t).is_some_and(|s| s.word == Word::Unique)
+    }
+
+    /// Whether it is sensitive to data.
+    #[must_use]
+    pub fn is_fragile(&self) -> bool {
+        self.sensitivity.is_some_and(|s| s > solvability::FRAGILE)
+    }
+}
+
+/// What is examined: verdicts and sensitivities.
+pub trait Judge: Sync {
+    /// The verdicts on components along a run.
+    ///
+    /// # Errors
+    /// If a state cannot be analysed.
+    fn on_run(&self, run: &Run, forms: &[Form]) -> Result<Vec<OnRun>, AnalysisError>;
+
+    /// The sensitivities of components at one state.
+    fn sensitivities(&self, mechanism: &Mechanism, forms: &[Form], row: &Row) -> Option<AtState>;
+}
+
+/// Sensitivities at one state.
+#[derive(Clone, Debug)]
+pub struct AtState {
+    /// The rows that are kept.
+    pub kept: Vec<usize>,
+    /// By component, if it is determined and its sensitivity is known.
+    pub each: Vec<Option<f64>>,
+}
+
+/// The product.
+pub struct Product;
+
+impl Judge for Product {
+    fn on_run(&self, run: &Run, forms: &[Form]) -> Result<Vec<OnRun>, AnalysisError> {
+        let (mechanism, rows) = (&run.study.prepared.mechanism, &run.rows[..]);
+        let ends = ends(rows, &run.cuts);
+        let none = OnRun {
+            stretches: Vec::new(),
+            sensitivity: None,
+        };
+        let mut all = vec![none; forms.len()];
+        for piece in ends.windows(2) {
+            let inside = |row: &&Row| piece[0] < row.t && row.t < piece[1];
+            let states: Vec<&Row> = rows.iter().filter(inside).collect();
+            // Nothing is known of a stretch without a state inside.
+            let word = if states.is_empty() {
+                Word::Undecided
+            } else {
+                Word::Unique
+            };
+            let mut words = vec![word; forms.len()];
+            for (k, row) in states.iter().enumerate() {
+                let analysis = analysis(mechanism, row)?;
+                for (word, form) in words.iter_mut().zip(forms) {
+                    *word = (*word).max(word_of(&analysis, form));
+                }
+                if k == states.len() / 2 {
+                    let found = sensitivities(mechanism, &analysis, forms, row);
+                    for (own, new) in all.iter_mut().zip(found.iter().flat_map(|f| &f.each)) {
+                        own.sensitivity = larger(own.sensitivity, *new);
+                    }
+                }
+            }
+            for (own, word) in all.iter_mut().zip(words) {
+                own.stretches.push(Stretch {
+                    from: piece[0],
+                    to: piece[1],
+                    word,
+                });
+            }
+        }
+        Ok(all)
+    }
+
+    fn sensitivities(&self, mechanism: &Mechanism, forms: &[Form], row: &Row) -> Option<AtState> {
+        sensitivities(mechanism, &analysis(mechanism, row).ok()?, forms, row)
+    }
+}
+
+fn larger(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.max(b)),
+        (a, b) => a.or(b),
+    }
+}
+
+/// The analysis of a state, known to the tolerance of the run that has reached it.
+fn analysis(mechanism: &Mechanism, row: &Row) -> Result<Analysis, AnalysisError> {
+    let known = match row.t {
+        0.0 => Known::AsStored,
+        _ => Known::To(RTOL),
+    };
+    analyse_known(mechanism, row.t_before, &row.q, known)
+}
+
+fn ends(rows: &[Row], cuts: &[f64]) -> Vec<f64> {
+    let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
+        return Vec::new();
+    };
+    let inside = |t: &&f64| first.t < **t && **t < last.t;
+    let mut ends = vec![first.t, last.t];
+    ends.extend(cuts.iter().filter(inside));
+    ends.sort_by(f64::total_cmp);
+    ends.dedup();
+    ends
+}
+
+/// The verdict of an analysis on a component.
+fn word_of(analysis: &Analysis, form: &Form) -> Word {
+    let reaction = &analysis.reactions[form.group];
+    if reaction.determines(form.name) {
+        return Word::Unique;
+    }
+    let own = reaction.components.iter().find(|c| c.name == form.name);
+    match &own.map_or(&reaction.wrench, |c| &c.judgement).verdict {
+        Verdict::Unique => Word::Unique,
+        Verdict::NotUnique => Word::NotUnique,
+        _ => Word::Undecided,
+    }
+}
+
+fn sensitivities(
+    mechanism: &Mechanism,
+    analysis: &Analysis,
+    forms: &[Form],
+    row: &Row,
+) -> Option<AtState> {
+    let found = analysis.sensitivities(mechanism, &row.q, &row.v).ok()?;
+    let each = forms.iter().map(|form| {
+        let change = found.each[form.group].as_ref().map(|s| s.change);
+        change.filter(|_| word_of(analysis, form) == Word::Unique)
+    });
+    Some(AtState {
+        kept: analysis.decision.kept.clone(),
+        each: each.collect(),
+    })
+}
