@@ -82,6 +82,12 @@ pub struct ComponentSummary {
 }
 
 impl DroppedRows {
+    /// Rows (from 0, ascending) that have no multiplier from a row of output on.
+    #[must_use]
+    pub fn new(from: f64, rows: Vec<usize>) -> Self {
+        Self { from, rows }
+    }
+
     /// Those of components with the rows of the whole mechanism.
     pub(super) fn together(components: &[ComponentSummary]) -> Vec<Self> {
         let each = components.iter().map(|c| &c.summary.dropped);

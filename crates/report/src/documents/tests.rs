@@ -3,8 +3,8 @@
 mod space;
 
 use dynamics::{
-    DropError, Event, EventKind, Method, MotionError, MotionOptions, Plan, Prepared, RowChoice,
-    Summary, Wanted, prepare,
+    DropError, DroppedRows, Event, EventKind, Method, MotionError, MotionOptions, Plan, Prepared,
+    RowChoice, Summary, Wanted, prepare,
 };
 use joints::{Revolute, RevoluteAngleDrive};
 use linalg::Matrix;
@@ -17,11 +17,14 @@ use serde_json::Value;
 use solvability::{
     Analysis, ComponentVerdict, Datum, Dependency, Extent, Freedoms, Generic, Judgement,
     PartAnalysis, PartDecision, ReactionSensitivities, ReactionVerdict, RowVerdict, Sensitivities,
-    Sensitivity, Verdict, analyse,
+    Sensitivity, Stretches, Verdict, VerdictStretch, VerdictTrack, analyse,
 };
 
+use crate::peaks::Peak;
+use crate::tables::{Selection, columns_of_reactions};
+
 use super::{
-    AnalysisDocument, ChoiceDocument, DataDocument, Ending, FreedomsDocument, Run, RunDocument,
+    AnalysisDocument, DataDocument, Ending, FreedomsDocument, Run, RunDocument, RunVerdicts,
     write_json,
 };
 
@@ -354,6 +357,8 @@ fn summary_has_the_keys_of_the_contract() {
         misfits: Vec::new(),
         events: Vec::new(),
         components: Vec::new(),
+        verdicts: None,
+        dropped: vec![DroppedRows::new(0.0, vec![3])],
     };
     let prepared = prepared();
     let freedoms = freedoms(&prepared);
@@ -377,7 +382,32 @@ fn summary_has_the_keys_of_the_contract() {
         each: vec![upper, ReactionSensitivities::default()],
         left_out: Vec::new(),
     };
+    // `lower` is determined along x up to 1 s.
+    let mut stretches = Stretches::unique(&prepared.mechanism, [0.0, 2.0], &[]);
+    let stretch = |from, to, verdict| VerdictStretch { from, to, verdict };
+    let along_x = VerdictTrack::of([
+        stretch(0.0, 1.0, Verdict::Unique),
+        stretch(1.0, 2.0, Verdict::NotUnique),
+    ]);
+    stretches.reactions[1].components[0].1 = along_x;
+    stretches.reactions[1].components[1].1 =
+        VerdictTrack::of([stretch(0.0, 2.0, Verdict::NotUnique)]);
+    stretches.sum_up(&[]);
+    let names = Selection::Names(vec!["upper".into()]);
+    let columns = columns_of_reactions(&prepared.mechanism, &names, &[], |_, _| false);
+    let columns = columns.expect("it exists");
+    let peak = Peak {
+        value: -3.5,
+        time: 0.25,
+        over: vec![[0.0, 2.0]],
+    };
     let run = Run {
+        verdicts: Some(RunVerdicts {
+            stretches: &stretches,
+            groups: &[],
+            columns: &columns,
+            peaks: &[None, Some(peak), None],
+        }),
         rows: 3,
         files: &["trajectory.csv", "summary.json"],
         plan: &plan,
@@ -399,10 +429,21 @@ fn summary_has_the_keys_of_the_contract() {
         "data": { "tolerance": 0.25, "angle_tolerance": 0.125, "lower_rank_from": null, "lower_rank_from_angle": null, "lower_rank_here": null },
         "misfits": [], "spread": null, "events": [],
         "reactions": {
-            "upper": { "verdict": "unique", "margin": 0.0, "within_tolerance": false, "sensitivity": 0.25, "fragile": true,
-                "hangs_on": "`upper` is unique but changes by about 25 % if point `s_i` of `lower` moves by 0.20 mm" },
-            "lower \"2\"": { "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false,
-                "choice": { "method": "kept-rows", "deleted_rows": [4] } } },
+            "upper": { "verdict": "unique", "sensitivity": 0.25, "fragile": true,
+                "hangs_on": "`upper` is unique but changes by about 25 % if point `s_i` of `lower` moves by 0.20 mm",
+                "at_start": { "verdict": "unique", "margin": 0.0, "within_tolerance": false },
+                "components": {
+                    "Fx": { "verdict": "unique", "sensitivity": 0.25, "fragile": true,
+                        "hangs_on": "`upper.Fx` is unique but changes by about 25 % if point `s_i` of `lower` moves by 0.20 mm" },
+                    "Fy": { "verdict": "unique", "sensitivity": null, "fragile": false,
+                        "peak": { "value": -3.5, "time": 0.25, "over": [[0.0, 2.0]] } } } },
+            "lower \"2\"": { "verdict": "not_unique", "sensitivity": null, "fragile": false,
+                "at_start": { "verdict": "not_unique", "margin": 0.5, "within_tolerance": false },
+                "components": {
+                    "Fx": { "verdict": "not_unique", "determined": [[0.0, 1.0]], "sensitivity": null, "fragile": false },
+                    "Fy": { "verdict": "not_unique", "sensitivity": null, "fragile": false } } } },
+        "special": [],
+        "choice": [ { "from": 0.0, "to": 2.0, "name": "kept-rows", "deleted_rows": [4] } ],
         "plan": { "components": "solved as one", "generated_code": "interpreted", "rows_of_output": "201", "accelerations": "at rows of output", "method": "dop853", "linear_systems": "none",
             "elimination": "null space, 3 × 3", "refinement": "none", "freedom": "none", "nonholonomic_rows": "none", "dropped_rows": "1 monitored",
             "rows_of_time": "b = 0", "varying_entries": "4 evaluated", "rows_of_gamma": "4 evaluated", "turning_bodies": "1 of 1",
@@ -411,7 +452,7 @@ fn summary_has_the_keys_of_the_contract() {
 }
 
 #[test]
-fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
+fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     let analysis = analysis();
     let mut prepared = prepared();
     prepared.choice = RowChoice::Automatic;
@@ -427,11 +468,16 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
             dropped: vec![1],
             text: "row 2 for row 4".into(),
         }],
+        dropped: vec![
+            DroppedRows::new(0.0, vec![3]),
+            DroppedRows::new(1.25, vec![1]),
+        ],
         ..Summary::default()
     };
     let error = MotionError::from(DropError::NotRedundant);
     let sensitivities = Sensitivities::default();
-    let run = |ending| Run {
+    let mut stretches = Stretches::unique(&prepared.mechanism, [0.0, 1.5], &[]);
+    let run = |ending, stretches| Run {
         rows: 3,
         files: &["trajectory.csv", "summary.json"],
         plan: &plan,
@@ -439,42 +485,31 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
         sensitivities: &sensitivities,
         data: DataDocument::new(&analysis),
         freedoms: &freedoms,
+        verdicts: Some(RunVerdicts {
+            stretches,
+            groups: &[],
+            columns: &[],
+            peaks: &[],
+        }),
         summary: &summary,
         spread: None,
         ending,
     };
-    let document = RunDocument::new(&run(Ending::Stopped(&error)));
+    let document = RunDocument::new(&run(Ending::Stopped(&error), &stretches));
     assert!(document.partial);
     assert_eq!(document.error, Some(error.to_string()));
     assert_eq!(document.t_end, 1.5);
     assert_eq!(document.events[0].kind, "rows-exchanged");
-    for (name, reaction) in &document.reactions.0 {
-        let choice = reaction.choice.as_ref();
-        assert_eq!(valid_until(choice), Some(1.25), "{name}");
-    }
-    // Rows requested by the user are used for the reactions throughout.
-    let mut asked = prepared.clone();
-    asked.choice = RowChoice::Drop(vec![3]);
-    let explicit = RunDocument::new(&Run {
-        plan: &planned(&asked),
-        ..run(Ending::Complete)
-    });
-    let choices = explicit
-        .reactions
-        .0
-        .iter()
-        .filter_map(|(_, r)| r.choice.as_ref());
-    assert!(choices.into_iter().all(|c| valid_until(Some(c)).is_none()));
-    let interrupted = RunDocument::new(&run(Ending::Interrupted));
-    assert!(interrupted.partial && interrupted.error.is_none());
-}
-
-/// Time at which other rows are deleted, if the choice is one of rows.
-fn valid_until(choice: Option<&ChoiceDocument>) -> Option<f64> {
-    match choice {
-        Some(ChoiceDocument::KeptRows { valid_until, .. }) => *valid_until,
-        _ => None,
-    }
+    // Where everything is determined there is no choice.
+    assert_eq!(document.choice, []);
+    stretches.reactions[0].whole = VerdictTrack::constant([0.0, 1.5], Verdict::NotUnique);
+    let open = RunDocument::new(&run(Ending::Interrupted, &stretches));
+    assert!(open.partial && open.error.is_none());
+    let choices = open.choice.iter();
+    let choices = choices.map(|c| (c.from, c.to, c.deleted_rows.as_slice()));
+    let expected = [(0.0, 1.25, &[4][..]), (1.25, 1.5, &[2])];
+    assert_eq!(choices.collect::<Vec<_>>(), expected);
+    assert_eq!(open.choice[1].to_string(), "kept-rows, row 2 deleted");
 }
 
 /// A crank with its motor: `null` without drives, otherwise ranks and motions of the other rows;

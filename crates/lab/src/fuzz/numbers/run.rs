@@ -4,6 +4,8 @@ use std::ops::ControlFlow;
 
 use dynamics::{MotionError, MotionOptions, simulate};
 use model::{Reaction, Registry, System};
+use solvability::Stretches;
+
 use pfaff::{AssembledScene, Overrides, Study, StudyError};
 
 /// Relative and absolute tolerance of all runs.
@@ -36,6 +38,8 @@ pub struct Run {
     pub rows: Vec<Row>,
     /// Times at which verdicts may change.
     pub cuts: Vec<f64>,
+    /// What it says of its reactions.
+    pub stretches: Option<Stretches>,
     /// The time that it reached (s).
     pub reached: f64,
     /// Why it stopped before its end.
@@ -78,7 +82,9 @@ pub fn run(study: Study) -> Run {
             t_before: if is_break { t.next_down() } else { t },
             q: sample.q.to_vec(),
             v: sample.v.to_vec(),
-            reactions: sample.reactions().unwrap_or_default(),
+            reactions: sample
+                .reactions()
+                .map_or_else(|_| Vec::new(), |found| found.as_chosen().to_vec()),
         });
         Ok(ControlFlow::Continue(()))
     });
@@ -92,6 +98,7 @@ pub fn run(study: Study) -> Run {
         study,
         rows,
         cuts,
+        stretches: summary.verdicts,
         reached: summary.t,
         stopped,
     }

@@ -4,8 +4,8 @@
 //! Between cuts of a run (events, breaks of functions of time) a component is `unique` if its
 //! verdict is at every state of the open interval, `not unique` if it is at one, else undecided.
 
-use model::{Known, Mechanism};
-use solvability::{Analysis, AnalysisError, Verdict, analyse_known};
+use model::{ConstraintId, Known, Mechanism};
+use solvability::{Analysis, AnalysisError, Verdict, VerdictStretch, analyse_known};
 
 use super::forms::Form;
 use super::run::{RTOL, Row, Run};
@@ -88,40 +88,17 @@ pub struct Product;
 impl Judge for Product {
     fn on_run(&self, run: &Run, forms: &[Form]) -> Result<Vec<OnRun>, AnalysisError> {
         let (mechanism, rows) = (&run.study.prepared.mechanism, &run.rows[..]);
-        let ends = ends(rows, &run.cuts);
-        let none = OnRun {
-            stretches: Vec::new(),
-            sensitivity: None,
-        };
-        let mut all = vec![none; forms.len()];
-        for piece in ends.windows(2) {
+        let mut all: Vec<OnRun> = forms.iter().map(|form| on_run(run, form)).collect();
+        // Sensitivities of the middle of each stretch.
+        for piece in ends(rows, &run.cuts).windows(2) {
             let inside = |row: &&Row| piece[0] < row.t && row.t < piece[1];
             let states: Vec<&Row> = rows.iter().filter(inside).collect();
-            // Nothing is known of a stretch without a state inside.
-            let word = if states.is_empty() {
-                Word::Undecided
-            } else {
-                Word::Unique
+            let Some(row) = states.get(states.len() / 2) else {
+                continue;
             };
-            let mut words = vec![word; forms.len()];
-            for (k, row) in states.iter().enumerate() {
-                let analysis = analysis(mechanism, row)?;
-                for (word, form) in words.iter_mut().zip(forms) {
-                    *word = (*word).max(word_of(&analysis, form));
-                }
-                if k == states.len() / 2 {
-                    let found = sensitivities(mechanism, &analysis, forms, row);
-                    for (own, new) in all.iter_mut().zip(found.iter().flat_map(|f| &f.each)) {
-                        own.sensitivity = larger(own.sensitivity, *new);
-                    }
-                }
-            }
-            for (own, word) in all.iter_mut().zip(words) {
-                own.stretches.push(Stretch {
-                    from: piece[0],
-                    to: piece[1],
-                    word,
-                });
+            let found = sensitivities(mechanism, &analysis(mechanism, row)?, forms, row);
+            for (own, new) in all.iter_mut().zip(found.iter().flat_map(|f| &f.each)) {
+                own.sensitivity = larger(own.sensitivity, *new);
             }
         }
         Ok(all)
@@ -129,6 +106,39 @@ impl Judge for Product {
 
     fn sensitivities(&self, mechanism: &Mechanism, forms: &[Form], row: &Row) -> Option<AtState> {
         sensitivities(mechanism, &analysis(mechanism, row).ok()?, forms, row)
+    }
+}
+
+/// What the run says of a component; a component that is zero under any load is determined.
+fn on_run(run: &Run, form: &Form) -> OnRun {
+    let track = run.stretches.as_ref().map(|found| {
+        let own = found.reactions[form.group].component(form.name);
+        own.map_or_else(
+            || {
+                vec![Stretch {
+                    from: found.extent[0],
+                    to: found.extent[1],
+                    word: Word::Unique,
+                }]
+            },
+            |track| track.stretches().iter().map(stretch).collect(),
+        )
+    });
+    OnRun {
+        stretches: track.unwrap_or_default(),
+        sensitivity: None,
+    }
+}
+
+fn stretch(of: &VerdictStretch) -> Stretch {
+    Stretch {
+        from: of.from,
+        to: of.to,
+        word: match of.verdict {
+            Verdict::Unique => Word::Unique,
+            Verdict::NotUnique => Word::NotUnique,
+            _ => Word::Undecided,
+        },
     }
 }
 
@@ -182,7 +192,8 @@ fn sensitivities(
 ) -> Option<AtState> {
     let found = analysis.sensitivities(mechanism, &row.q, &row.v).ok()?;
     let each = forms.iter().map(|form| {
-        let change = found.each[form.group].as_ref().map(|s| s.change);
+        let own = found.component(ConstraintId(form.group), form.name);
+        let change = own.map(|s| s.change);
         change.filter(|_| word_of(analysis, form) == Word::Unique)
     });
     Some(AtState {
