@@ -4,7 +4,9 @@ use std::time::Instant;
 
 use integrators::{Interval, Options, OutputTimes, Rows};
 use model::System;
-use solvability::{contradicting_drives_along, generic};
+use solvability::{
+    ONE_PART, contradicting_drives_along, decide_dropping, generic, no_finite_reactions,
+};
 
 use super::caller::{ShowRow, Stop, Watch, named};
 use super::equations::RunEquations;
@@ -42,6 +44,7 @@ pub(super) fn run_component(
         method,
         ..plan.options().clone()
     };
+    check_finite(prepared).map_err(not_begun)?;
     let begun = KeptRowMotion::evaluated(prepared, options, evaluator).and_then(|mut motion| {
         motion.begin(0.0, &mut prepared.q.clone())?;
         Ok(motion)
@@ -102,6 +105,29 @@ pub(super) fn run_component(
     };
     let error = at_singular_start(prepared, of_drives(prepared, options.t_end, error));
     Err(Box::new(Failure { error, summary }))
+}
+
+/// Refuses a start at which second order excludes the acceleration that the loads cause.
+fn check_finite(prepared: &Prepared) -> Result<(), MotionError> {
+    let (mechanism, decision) = (&prepared.mechanism, &prepared.decision);
+    let layout = mechanism.layout();
+    if decision.redundancy == 0 || decision.rank == layout.n_v || layout.rows() > ONE_PART {
+        return Ok(());
+    }
+    let (q, v) = (&prepared.q, &prepared.v);
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, q, &mut s);
+    mechanism.phi(&mut s);
+    mechanism.c(&mut s);
+    // What is redundant within a stated tolerance only is not redundant here.
+    let Ok(decision) = decide_dropping(mechanism, &s, q, &decision.dropped) else {
+        return Ok(());
+    };
+    let found = no_finite_reactions(mechanism, (0.0, q, v), &decision)?;
+    match found.into_iter().find(|found| found.decided) {
+        Some(found) => Err(MotionError::NoFiniteReaction(Box::new(found))),
+        None => Ok(()),
+    }
 }
 
 /// If drives contradict each other or prescribe what joints forbid, names these drives as the cause
