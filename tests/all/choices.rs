@@ -74,6 +74,7 @@ fn number(value: &Value) -> (f64, bool) {
             assert!(!by.to_string().is_empty());
             (*value, true)
         }
+        Value::NotFinite(why) => panic!("{why}"),
     }
 }
 

@@ -15,6 +15,7 @@ mod equilibrium;
 mod exact_oracle;
 mod examples;
 mod existence;
+mod finite;
 mod first_bodies;
 mod formulations;
 mod frames;

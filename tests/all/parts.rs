@@ -130,14 +130,12 @@ fn questions_are_answered_by_parts_as_by_the_whole() {
         let solution = Solution {
             acceleration: vec![0.0; mechanism.layout().n_v],
             multipliers,
+            no_finite: Vec::new(),
         };
         let least = Choice::MinimumNorm(NormWeights::NEWTON_METRE);
         let [x, y] = [&whole, &parts].map(|q| q.distribute(&solution, &least));
         if let (Ok(x), Ok(y)) = (&x, &y) {
-            let number = |value: &Value| match value {
-                Value::Unique(x) => *x,
-                Value::Chosen { value, .. } => *value,
-            };
+            let number = |value: &Value| value.number().expect("nothing is examined");
             let all = |d: &Distribution| -> Vec<f64> {
                 let each = d.reactions.iter().flat_map(|r| &r.components);
                 each.map(|(_, value)| number(value)).collect()

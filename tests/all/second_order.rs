@@ -238,7 +238,8 @@ fn what_cannot_go_on_at_second_order_is_locked() {
         mechanism.phi(&mut s);
         mechanism.c(&mut s);
         let decision = decide(&mechanism, &s, &q).expect("finite");
-        is_locked(&mechanism, 0.0, &q, &decision).expect("a configuration")
+        let found = is_locked(&mechanism, 0.0, &q, &decision).expect("a configuration");
+        found.expect("second order decides")
     };
     let x = |x: f64| [x, 0.0];
     assert!(locked(&chain(&[x(0.0), x(1.0), x(2.5)])));

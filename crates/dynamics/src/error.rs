@@ -8,7 +8,7 @@ use model::codes::Code;
 use model::words::{listed, rounded};
 use model::{CalledForce, RowLabel, StartError, UndefinedForce};
 use rank::Doubt;
-use solvability::{AnalysisError, Contradiction, DriveLimit, StateError};
+use solvability::{AnalysisError, Contradiction, DriveLimit, NoFiniteReaction, StateError};
 
 pub use rows::DropError;
 
@@ -339,6 +339,11 @@ pub enum MotionError {
         /// The smallest value allowed.
         required: f64,
     },
+    /// Second order excludes the acceleration that the loads cause at the start.
+    #[error(
+        "at the start {0}. Remove these loads, support the freedom, or describe the small offset with which the mechanism carries them"
+    )]
+    NoFiniteReaction(Box<NoFiniteReaction>),
     /// The rows that were to be dropped cannot be dropped.
     #[error(transparent)]
     Rows(#[from] DropError),
@@ -377,6 +382,7 @@ impl MotionError {
             Self::Contradiction(_) => const { Code::new(210) },
             Self::RankUndecided(_) => const { Code::new(212) },
             Self::Inseparable { .. } => const { Code::new(213) },
+            Self::NoFiniteReaction(_) => const { Code::new(215) },
             Self::Rows(e) => e.code(),
             Self::Fault(e) => e.code(),
             Self::NoReaction { .. } => const { Code::new(404) },

@@ -16,6 +16,7 @@
 //! | [`campaign`] | many inputs, several at the same time; what was found |
 //! | [`minimise`] | the shortest text that still fails alike |
 //! | [`passages`] | parallelograms through their flat poses, against closed forms |
+//! | [`forms`] | quadratic forms: common zeros, against a decision in whole numbers |
 //! | [`mod@exact`] | degenerate scenes whose answer exact arithmetic knows: does the program give it? |
 //! | [`numbers`] | random motions: are numbers that are called determined the same in all solutions? |
 //! | [`space`] | mechanisms in space with planted redundancy, and what exact arithmetic says of them |
@@ -23,6 +24,7 @@
 pub mod campaign;
 pub mod damage;
 pub mod exact;
+pub mod forms;
 pub mod input;
 pub mod minimise;
 pub mod numbers;

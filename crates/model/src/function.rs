@@ -262,6 +262,26 @@ impl Function {
         }
     }
 
+    /// Whether it has the same value at all times.
+    ///
+    /// ```
+    /// use model::Function;
+    /// assert!(Function::polynomial(&[2.0, 0.0]).unwrap().is_constant());
+    /// assert!(!Function::steps(0.0, &[[1.0, 2.0, 0.5]]).unwrap().is_constant());
+    /// ```
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        match &self.0 {
+            Law::Polynomial(coefficients) => coefficients.iter().skip(1).all(|c| *c == 0.0),
+            Law::Harmonic {
+                amplitude, omega, ..
+            } => *amplitude == 0.0 || *omega == 0.0,
+            Law::Steps { steps, .. } => steps.iter().all(|step| step.by == 0.0),
+            Law::Table(spline) => spline.is_constant(),
+            Law::Lines(lines) => lines.is_constant(),
+        }
+    }
+
     /// The constant function with its value at t.
     pub(crate) fn held_at(&self, t: f64) -> Self {
         Self(Law::Polynomial(vec![self.jet(t)[0]]))

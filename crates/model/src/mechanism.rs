@@ -18,6 +18,7 @@ mod turn;
 mod work;
 
 use crate::body::BodyRecord;
+use crate::group::ConstraintId;
 use crate::observed::Observed;
 use crate::size::are_apart;
 use crate::space::{Space, SpaceKind, in_space};
@@ -118,6 +119,21 @@ impl Mechanism {
 }
 
 impl Mechanism {
+    /// Whether functions of time in the rows of a joint or drive prescribe a motion. A drive with a
+    /// constant function is a lock, and so is a rate that is always zero.
+    ///
+    /// # Panics
+    /// If the joint or drive does not exist.
+    #[must_use]
+    pub fn prescribes_motion(&self, ConstraintId(group): ConstraintId) -> bool {
+        let constraint = &self.elements.constraints[group];
+        let given = &self.elements.given[constraint.site.functions.clone()];
+        let gives_rate = !constraint.rows.nonholonomic.is_empty();
+        let mut functions = given.iter().filter_map(Given::function);
+        functions
+            .any(|of| !of.function.is_constant() || (gives_rate && of.function.jet(0.0)[0] != 0.0))
+    }
+
     /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {

@@ -144,6 +144,7 @@ impl Checked {
             start_velocity_correction: self.velocity,
             mobility: freedoms.map(|f| f.mobility),
             mobility_without_drives: freedoms.and_then(|f| f.document.mobility_without_drives()),
+            cannot_move: freedoms.and_then(|f| f.document.cannot_move),
             inactive: &self.inactive,
             problems: &self.problems,
             warnings: &self.warnings,

@@ -15,9 +15,9 @@ use scene::Scene;
 use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Continuation, Contradiction, Distribution,
     EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GroupVerdict, MomentVerdict,
-    Numbers, Proposals, Questions, ReactionNumber, ReactionVerdict, Rows, Sensitivities,
-    Sensitivity, Solution, State, UnitCheck, analyse_decided, analyse_dropping,
-    analyse_with_progress, generic, is_locked, second_order, solution,
+    NoFiniteReaction, Numbers, Proposals, Questions, ReactionNumber, ReactionVerdict, Rows,
+    Sensitivities, Sensitivity, Solution, State, UnitCheck, analyse_decided, analyse_dropping,
+    analyse_with_progress, generic, is_locked, no_finite_reactions, second_order, solution,
 };
 
 use crate::error::StudyError;
@@ -321,29 +321,42 @@ impl<'a> ConfigurationAnalysis<'a> {
     }
 
     /// Whether the mechanism cannot move although its rows leave velocities free: second order
-    /// blocks all of them. Always `false` for mechanisms with too many rows for dense matrices.
+    /// blocks all of them while functions of time are held. `None` if second order does not decide,
+    /// and for mechanisms with too many rows for dense matrices.
     ///
     /// # Errors
     /// [`StudyError::State`]
-    pub fn is_locked(&self) -> Result<bool, StudyError> {
+    pub fn is_locked(&self) -> Result<Option<bool>, StudyError> {
         match self.analysis.whole() {
             Some(decision) => {
                 let (t, q) = (self.analysis.time, &self.state.q);
                 Ok(is_locked(self.mechanism, t, q, &decision)?)
             }
-            None => Ok(false),
+            None => Ok(None),
         }
     }
 
-    /// Whether no motion is possible: the rows allow no velocity and do not depend on time, or
-    /// second order blocks every velocity that they allow ([`ConfigurationAnalysis::is_locked`]).
+    /// Whether no motion is possible: see [`Freedoms::cannot_move`].
     ///
     /// # Errors
     /// [`StudyError::State`]
-    pub fn cannot_move(&self) -> Result<bool, StudyError> {
-        let (decision, layout) = (&self.analysis.decision, self.mechanism.layout());
-        let is_fixed = decision.is_decided() && decision.rank == layout.n_v && !layout.rheonomic;
-        Ok(is_fixed || self.is_locked()?)
+    pub fn cannot_move(&self) -> Result<Option<bool>, StudyError> {
+        Ok(self.freedoms()?.cannot_move)
+    }
+
+    /// The sets of reactions that have no finite value at these velocities, because the loads push
+    /// along a freedom that second order excludes. Empty if the rank is undecided, and for
+    /// mechanisms with too many rows for dense matrices.
+    ///
+    /// # Errors
+    /// [`StudyError::State`]
+    pub fn no_finite_reactions(&self) -> Result<Vec<Arc<NoFiniteReaction>>, StudyError> {
+        let Some(decision) = self.analysis.whole().filter(|_| !self.has_no_velocities()) else {
+            return Ok(Vec::new());
+        };
+        let state = (self.analysis.time, &self.state.q[..], &self.state.v[..]);
+        let found = no_finite_reactions(self.mechanism, state, &decision)?;
+        Ok(found.into_iter().map(Arc::new).collect())
     }
 
     /// Explains the non-unique reactions. Returns `None` if the rank is undecided.
@@ -484,6 +497,8 @@ impl<'a> ConfigurationAnalysis<'a> {
             }
         }
         let state = (self.analysis.time, &self.state.q[..], &self.state.v[..]);
-        Ok(solution(self.mechanism, state, decision)?)
+        let mut found = solution(self.mechanism, state, decision)?;
+        found.no_finite = self.no_finite_reactions()?;
+        Ok(found)
     }
 }

@@ -156,6 +156,21 @@ impl StudyError {
     }
 }
 
+/// Whether a motion cannot begin with this input.
+fn is_input(e: &MotionError) -> bool {
+    match e {
+        MotionError::Component { source, .. } => is_input(source),
+        MotionError::Start(_)
+        | MotionError::Contradiction(_)
+        | MotionError::Rows(_)
+        | MotionError::NoFiniteReaction(_)
+        | MotionError::Option { .. }
+        | MotionError::Combination { .. }
+        | MotionError::Fault(MotionFault::NoDerivatives { .. }) => true,
+        _ => false,
+    }
+}
+
 fn suggestion(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
 }
@@ -191,15 +206,7 @@ impl StudyError {
             | Self::UnknownRow { .. }
             | Self::Contradiction(_)
             | Self::Request(_) => true,
-            Self::Motion(e) => matches!(
-                e,
-                MotionError::Start(_)
-                    | MotionError::Contradiction(_)
-                    | MotionError::Rows(_)
-                    | MotionError::Option { .. }
-                    | MotionError::Combination { .. }
-                    | MotionError::Fault(MotionFault::NoDerivatives { .. })
-            ),
+            Self::Motion(e) => is_input(e),
             Self::Linearise(e) => e.is_input(),
             Self::Equilibrium(e) => e.is_input(),
             Self::Analysis(e) => matches!(e, AnalysisError::Rows { .. }),

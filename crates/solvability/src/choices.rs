@@ -8,6 +8,9 @@ mod error;
 mod minimise;
 mod value;
 
+use std::sync::Arc;
+
+use crate::finite::NoFiniteReaction;
 use crate::limits::VALUE_ROUNDINGS;
 use crate::pose::dimensionless;
 use model::ConstraintId;
@@ -94,6 +97,7 @@ pub struct Distribution {
     pub multipliers: Vec<Value>,
     lambda_0: Vec<f64>,
     lambda: Vec<f64>,
+    no_finite: Vec<Arc<NoFiniteReaction>>,
 }
 
 /// A reaction on the first body, at the place of the joint.
@@ -131,6 +135,9 @@ impl Distribution {
     ) -> Result<Value, RequestError> {
         let lambda = extent.of_rows(&self.lambda);
         check("multipliers", &lambda, form.coefficients().len())?;
+        if let Some(why) = not_finite(&self.no_finite, extent, form) {
+            return Ok(Value::NotFinite(why));
+        }
         Ok(match configuration.judge(form)?.verdict {
             // A unique number is computed from λ₀, the most accurate solution, whatever the choice.
             Verdict::Unique => {
@@ -141,6 +148,21 @@ impl Distribution {
                 by: self.label.clone(),
             },
         })
+    }
+
+    /// The same without the numbers of reactions that have no finite value.
+    pub(crate) fn without(mut self, no_finite: &[Arc<NoFiniteReaction>]) -> Self {
+        for why in no_finite {
+            for id in &why.reactions {
+                let components = self.reactions[id.0].components.iter_mut();
+                components.for_each(|(_, value)| *value = Value::NotFinite(Arc::clone(why)));
+            }
+            for &row in &why.rows {
+                self.multipliers[row] = Value::NotFinite(Arc::clone(why));
+            }
+        }
+        self.no_finite = no_finite.to_vec();
+        self
     }
 
     /// Assembles one solution of the whole mechanism from those of its parts; `reactions` and
@@ -158,6 +180,7 @@ impl Distribution {
             multipliers: vec![Value::Unique(0.0); rows],
             lambda_0: lambda_0.to_vec(),
             lambda: vec![0.0; rows],
+            no_finite: Vec::new(),
         };
         for (extent, part) in parts {
             let own = part.multipliers.into_iter().zip(part.lambda);
@@ -173,6 +196,21 @@ impl Distribution {
         whole.reactions.sort_unstable_by_key(|r| r.id.0);
         whole
     }
+}
+
+/// Why a linear form of the multipliers of a part has no value, if it contains a row without a
+/// finite multiplier.
+pub(crate) fn not_finite(
+    no_finite: &[Arc<NoFiniteReaction>],
+    extent: &Extent,
+    form: &LinearForm,
+) -> Option<Arc<NoFiniteReaction>> {
+    let is_in = |why: &&Arc<NoFiniteReaction>| {
+        let coefficients = form.coefficients().iter().enumerate();
+        let mut rows = coefficients.filter(|(_, x)| **x != 0.0);
+        rows.any(|(own, _)| why.rows.binary_search(&extent.row(own)).is_ok())
+    };
+    no_finite.iter().find(is_in).map(Arc::clone)
 }
 
 impl Configuration<'_> {
@@ -221,6 +259,7 @@ impl Configuration<'_> {
             multipliers: Vec::new(),
             lambda_0: lambda_0.to_vec(),
             lambda,
+            no_finite: Vec::new(),
         };
         for (k, group) in layout.groups.iter().enumerate() {
             let id = ConstraintId(k);

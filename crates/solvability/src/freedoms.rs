@@ -21,7 +21,9 @@ mod words;
 use model::{Mechanism, System};
 
 use crate::analysis::Analysis;
-use crate::second_order::blocked_velocities;
+use crate::limits::ROWS_MAX;
+use crate::pose::{decide, evaluated};
+use crate::second_order::{SecondOrder, is_locked, restrictions};
 use crate::state::{StateError, check_configuration};
 use connected::Connected;
 use motions::Decided;
@@ -38,14 +40,17 @@ pub struct Freedoms {
     pub mobility: usize,
     /// Motions that are possible while the drives are locked.
     pub motions: FreeMotions,
-    /// A basis of those that second order excludes, as far as it decides: free at first order, they
-    /// lead nowhere.
+    /// A basis of those that second order excludes, as far as it decides: they are free at first
+    /// order only, and no motion has such a velocity.
     pub blocked: Vec<FreeMotion>,
+    /// A basis of those for which second order neither excludes a motion nor proves one.
+    pub undecided: Vec<FreeMotion>,
     /// The freedoms without the drives. `None` if there are no drives.
     pub without_drives: Option<FreedomsWithoutDrives>,
-    /// Whether nothing can move, whatever the drives do: no velocity is free without them, and no
-    /// joint depends on a function of time.
-    pub cannot_move: bool,
+    /// Whether no motion is possible: no velocity is free without the drives, or second order
+    /// excludes every velocity that is free without them, or every one that they leave free while
+    /// none of them moves. `None` if this is not decided.
+    pub cannot_move: Option<bool>,
 }
 
 /// The possible motions if the drives are removed.
@@ -92,13 +97,65 @@ impl Analysis {
         });
         let is_decided = self.decision.is_decided();
         let mut found = Freedoms::of(mechanism, self.time, q, is_decided, decided.collect())?;
-        if found.mobility > 0
-            && let Some(decision) = self.whole()
-        {
-            let blocked = blocked_velocities(mechanism, self.time, q, &decision)?;
-            found.blocked = Connected::new(mechanism, true).among(self.time, q, &blocked);
+        if found.cannot_move == Some(true) || !is_decided {
+            return Ok(found);
         }
+        found.cannot_move = match (found.mobility, &found.without_drives) {
+            _ if self.decision.redundancy == 0 => Some(false),
+            (0, None) => Some(false),
+            (0, Some(without)) if without.ranks.redundancy == 0 => Some(false),
+            (0, Some(_)) => blocked_without_drives(mechanism, self.time, q)?,
+            _ => self.restrict(&mut found, mechanism, q)?,
+        };
         Ok(found)
+    }
+
+    /// Adds what second order says of the free motions; returns whether none is left.
+    fn restrict(
+        &self,
+        found: &mut Freedoms,
+        mechanism: &Mechanism,
+        q: &[f64],
+    ) -> Result<Option<bool>, StateError> {
+        let Some(decision) = self.whole() else {
+            return Ok(None);
+        };
+        let restricted = restrictions(mechanism, self.time, q, &decision)?;
+        let connected = Connected::new(mechanism, true);
+        let described = |which: SecondOrder| {
+            let velocities = restricted.velocities(which);
+            connected.among(self.time, q, &velocities)
+        };
+        found.blocked = described(SecondOrder::Blocked);
+        found.undecided = described(SecondOrder::Undecided);
+        let mut ids = mechanism.layout().constraint_ids();
+        let moves = ids.any(|id| mechanism.prescribes_motion(id));
+        // Second order says nothing of the motion that functions of time prescribe.
+        Ok(restricted.exclude_all().filter(|all| !all || !moves))
+    }
+}
+
+/// Whether second order excludes every velocity of the mechanism without its drives, which hold it
+/// at first order.
+fn blocked_without_drives(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+) -> Result<Option<bool>, StateError> {
+    let groups = mechanism.layout().groups.iter().enumerate();
+    let joints: Vec<usize> = groups
+        .filter(|(_, group)| !group.is_drive())
+        .map(|(k, _)| k)
+        .collect();
+    if mechanism.layout().rows() > ROWS_MAX {
+        return Ok(None);
+    }
+    let part = mechanism.part_of_groups(&joints);
+    let own: Vec<f64> = part.places.coordinates.iter().map(|&k| q[k]).collect();
+    let s = evaluated(&part.mechanism, t, &own);
+    match decide(&part.mechanism, &s, &own) {
+        Ok(decision) => is_locked(&part.mechanism, t, &own, &decision),
+        Err(_) => Ok(None),
     }
 }
 
@@ -162,8 +219,9 @@ impl Freedoms {
             mobility,
             motions,
             blocked: Vec::new(),
+            undecided: Vec::new(),
             without_drives,
-            cannot_move: is_decided && least == 0 && !moves_joints,
+            cannot_move: (is_decided && least == 0 && !moves_joints).then_some(true),
         })
     }
 }

@@ -9,6 +9,7 @@
 //! | [`mod@rows`] | what a motion needs: independent rows, also of large mechanisms |
 //! | [`state`] | a state that the caller gives |
 //! | [`existence`] | whether the rows contradict each other |
+//! | [`finite`] | whether the loads push along a freedom that second order excludes |
 //! | [`mod@generic`] | whether a redundancy is permanent, or of this configuration only |
 //! | [`freedoms`] | what can move, with drives and without |
 //! | [`groups`] | combinations of reactions, resultants |
@@ -43,6 +44,7 @@ mod directions;
 mod error;
 pub mod existence;
 pub mod explain;
+pub mod finite;
 pub mod frames;
 pub mod freedoms;
 pub mod generic;
@@ -95,6 +97,7 @@ pub use existence::{
 pub use explain::{
     Explanation, ExplanationError, FreeDirection, Mixing, ReactionExplanation, SelfStress, explain,
 };
+pub use finite::{NoFiniteReaction, no_finite_reactions};
 pub use frames::{FrameForms, FrameVerdict, judge_frames};
 pub use freedoms::{
     FreeMotion, FreeMotions, Freedoms, FreedomsWithoutDrives, LeftOut, WithoutDrives, motions_among,
@@ -119,7 +122,10 @@ pub use rows::{
     Rows, decide_holonomic_rows, decide_of_rank, decide_rows, decide_rows_dropping, rows,
     rows_of_rank,
 };
-pub use second_order::{Continuation, Undetermined, blocked_velocities, is_locked, second_order};
+pub use second_order::{
+    CommonZero, Continuation, Restricted, Restrictions, SecondOrder, Undetermined,
+    blocked_velocities, common_zero, is_locked, restrictions, second_order,
+};
 pub use sensitivity::{Datum, ReactionNumber, ReactionSensitivities, Sensitivities, Sensitivity};
 pub use state::{State, StateError};
 pub use stretches::{

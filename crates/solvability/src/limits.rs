@@ -446,6 +446,42 @@ pub(crate) const MARGIN: f64 = 1e-5;
 /// `narrow_proofs_are_found`.
 pub(crate) const BLOCKED_CORRECTIONS: usize = 1000;
 
+/// Unknowns up to which a covering of the sphere is tried; the number of boxes is a power of it.
+/// Unit: unknowns. Less: locked mechanisms are undecided. More: time. Test:
+/// `four_unknowns_are_covered`.
+pub(crate) const COVERED_UNKNOWNS: usize = 4;
+
+/// Boxes of a covering at most.
+/// Unit: boxes. Less: locked mechanisms are undecided. More: time. Test:
+/// `four_unknowns_are_covered`.
+pub(crate) const BOXES: usize = 100_000;
+
+/// Halvings of a box at most: below, all is rounding.
+/// Unit: halvings. Less: nearly common zeros are undecided. More: time. Test:
+/// `nearly_common_zeros_are_told_apart`.
+pub(crate) const BOX_HALVINGS: i32 = 50;
+
+/// A form belongs to the combinations of the others if what is left of it is below so many times
+/// the error of its coefficients.
+/// Unit: errors of a coefficient. Less: combinations of rounding are tried. More: forms that
+/// exclude a zero are left out. Test: `nearly_dependent_forms_are_used`.
+pub(crate) const DEPENDENT_FORMS: f64 = 1e3;
+
+/// What is left of a form is rounding below so many times the error of its coefficients, for each
+/// unknown.
+/// Unit: errors of a coefficient. Less: dependent forms leave zeros undecided. More: a zero of the
+/// others is one of a form that has none. Test: `a_form_above_its_error_is_no_rounding`.
+pub(crate) const FORMS_OF_ROUNDING: f64 = 8.0;
+
+/// Starts of the search for a transversal zero.
+/// Unit: starts. Less: free motions are undecided. More: time. Test: `three_unknowns`.
+pub(crate) const TRANSVERSAL_STARTS: usize = 60;
+
+/// A singular value of a projection is one or zero; above this it is one.
+/// Unit: 1. Less: rounding is a set of bodies. More: a set of bodies is lost. Test:
+/// `a_blocked_freedom_beside_many_others`.
+pub(crate) const OWN_SHARE: f64 = 0.5;
+
 /// Iterations from one start; convergence to a simple solution is quadratic.
 /// Unit: iterations. Less: branches are not found. More: time. Test:
 /// `a_branch_differs_from_the_motion_by_a_thousandth`.
@@ -476,6 +512,17 @@ pub(crate) const SAME_BRANCH: f64 = 1e-6;
 /// Unit: share of the terms. Less: rounding is a coefficient. More: small coefficients are none.
 /// Test: `forms_are_of_a_motion_and_no_rounding`.
 pub(crate) const FORM_ROUNDING: f64 = 1e-10;
+
+/// Bodies that are slower stand still.
+/// Unit: m/s, or the rate of rotation that moves a point of the mechanism by as much. Less:
+/// rounding of velocities is a motion, and finite reactions are undecided. More: what moves is said
+/// to have no finite reaction. Test: `bodies_that_move_are_undecided`.
+pub(crate) const AT_REST_SPEED: f64 = 1e-12;
+
+/// Loads push along a freedom if their sum is above this share of their terms.
+/// Unit: share of the terms. Less: rounding of loads that cancel pushes. More: small loads do not
+/// count. Test: `loads_that_cancel_do_not_push`.
+pub(crate) const PUSHES: f64 = 1e-9;
 
 // Freedoms.
 

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use crate::analysis::Analysis;
 use crate::choices::{
-    Choice, ChoiceError, Compliance, Distribution, Equations, Label, Solution, Value,
+    Choice, ChoiceError, Compliance, Distribution, Equations, Label, Solution, Value, not_finite,
 };
 use crate::explain::{Explanation, ExplanationError, explain};
 use crate::frames::FrameVerdict;
@@ -263,8 +263,14 @@ impl<'a> Questions<'a> {
         let lambda = &solution.multipliers;
         self.numbers(group, |k, configuration, form| {
             let is_unique = configuration.judge(form)?.verdict.is_unique();
-            let own = self.parts()[k].extent.of_rows(lambda);
-            Ok(is_unique.then(|| Value::Unique(configuration.value(form, &own))))
+            let extent = &self.parts()[k].extent;
+            let own = extent.of_rows(lambda);
+            Ok(
+                is_unique.then(|| match not_finite(&solution.no_finite, extent, form) {
+                    Some(why) => Value::NotFinite(why),
+                    None => Value::Unique(configuration.value(form, &own)),
+                }),
+            )
         })
     }
 
@@ -349,7 +355,8 @@ impl<'a> Questions<'a> {
         if let [one] = self.parts()
             && one.extent.is_whole()
         {
-            return self.configuration(0)?.distribute(lambda, choice);
+            let found = self.configuration(0)?.distribute(lambda, choice)?;
+            return Ok(found.without(&solution.no_finite));
         }
         let reactions = self.part_of.len();
         let eliminated = ListedRows::new(match choice {
@@ -391,12 +398,8 @@ impl<'a> Questions<'a> {
         let parts: Vec<Result<_, ChoiceError>> =
             (0..self.parts().len()).into_par_iter().map(share).collect();
         let parts = parts.into_iter().collect::<Result<Vec<_>, _>>()?;
-        Ok(Distribution::of_parts(
-            label.clone(),
-            lambda,
-            reactions,
-            parts,
-        ))
+        let found = Distribution::of_parts(label.clone(), lambda, reactions, parts);
+        Ok(found.without(&solution.no_finite))
     }
 
     /// Checks that the number of listed rows in each part equals its redundancy.

@@ -7,14 +7,19 @@
 //! If there is no other solution, the new motions are blocked at second order. If there is one, the
 //! motion branches. If second order does not decide, the result says so.
 //!
+//! The same equations restrict the freedoms of a mechanism whose functions of time are held
+//! ([`restrictions()`]): a locked drive is a row like any other.
+//!
 //! Source: S. Pellegrino, C. R. Calladine, Matrix analysis of statically and kinematically
 //! indeterminate frameworks, Int. J. Solids Structures 22 (1986) 409–428, here with velocities of
 //! the motion and drives.
 
-mod blocked;
 mod branches;
+mod definite;
 mod forms;
+mod restrictions;
 mod undetermined;
+mod zeros;
 
 use linalg::Matrix;
 use model::{Mechanism, System};
@@ -24,7 +29,10 @@ use crate::limits::KERNEL_MAX;
 use crate::state::{self, StateError};
 use forms::Forms;
 
+pub(crate) use restrictions::Accelerated;
+pub use restrictions::{Restricted, Restrictions, SecondOrder};
 pub use undetermined::Undetermined;
+pub use zeros::{CommonZero, common_zero};
 
 /// How a motion continues at a configuration at which the rank drops.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,7 +98,7 @@ pub fn second_order(
     let forms = Forms::new(mechanism, t, q, v, decision, regular);
     Ok(match forms {
         Err(reason) => Continuation::Undetermined(reason),
-        Ok(forms) if forms.y() == 0 || blocked::is_blocked(&forms) => Continuation::Unique,
+        Ok(forms) if is_unique(&forms, mechanism, q) => Continuation::Unique,
         Ok(forms) if forms.y() > KERNEL_MAX => Continuation::Undetermined(Undetermined::Kernel {
             found: forms.y(),
             most: KERNEL_MAX,
@@ -104,69 +112,88 @@ pub fn second_order(
     })
 }
 
-/// Whether the mechanism cannot move although C leaves velocities free: second order excludes every
-/// velocity with `C·v = 0`, so its mobility exists to first order only. Always `false` for
-/// mechanisms with functions of time, which move by these.
+/// Whether the forms exclude every other velocity.
+fn is_unique(forms: &Forms, mechanism: &Mechanism, q: &[f64]) -> bool {
+    match (forms.x(), forms.y()) {
+        (_, 0) => true,
+        (0, _) => Restrictions::of(forms, mechanism, q).exclude_all() == Some(true),
+        _ => definite::is_blocked(forms),
+    }
+}
+
+/// What second order says of the velocities with `C·v = 0` while functions of time are held:
+/// without the rows of moving drives nothing changes, and a locked drive is a row like any other.
+///
+/// Rows that are redundant within a stated tolerance only restrict nothing within it. If the rank
+/// is undecided there is no restriction, either.
 ///
 /// # Errors
 /// If the configuration has the wrong number of values, or one of them is not finite.
+pub fn restrictions(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    decision: &RankDecision,
+) -> Result<Restrictions, StateError> {
+    let n = mechanism.layout().n_v;
+    state::check(mechanism, t, q, &vec![0.0; n])?;
+    let unrestricted = n.saturating_sub(decision.rank);
+    if !may_block(mechanism, decision) {
+        return Ok(Restrictions {
+            unrestricted,
+            ..Restrictions::default()
+        });
+    }
+    Ok(match Forms::held(mechanism, t, q, decision) {
+        Ok(forms) => Restrictions::of(&forms, mechanism, q),
+        Err(Undetermined::NoTerms) => Restrictions {
+            unrestricted,
+            ..Restrictions::default()
+        },
+        Err(reason) => Restrictions {
+            unrestricted,
+            undetermined: Some(reason),
+            ..Restrictions::default()
+        },
+    })
+}
+
+/// Whether the mechanism cannot move although C leaves velocities free, while functions of time are
+/// held: second order excludes every velocity with `C·v = 0`, so its mobility exists to first order
+/// only. `None` if second order does not decide, or the rank is undecided.
+///
+/// # Errors
+/// As [`restrictions()`].
 pub fn is_locked(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],
     decision: &RankDecision,
-) -> Result<bool, StateError> {
-    if !may_block(mechanism, decision) {
-        return Ok(false);
-    }
-    let n = mechanism.layout().n_v;
-    let found = second_order(
-        mechanism,
-        t,
-        q,
-        &vec![0.0; n],
-        decision,
-        &Matrix::zeros(n, 0),
-    )?;
-    Ok(found == Continuation::Unique)
+) -> Result<Option<bool>, StateError> {
+    let found = restrictions(mechanism, t, q, decision)?;
+    Ok(found.exclude_all().filter(|_| decision.is_decided()))
 }
 
-/// Velocities with `C·v = 0` that second order excludes, n_v each: a combination of the forms
-/// `z·Γ(v)` is definite in them. They are orthogonal, without dimensions, to the velocities that no
-/// form contains. Empty if second order does not decide, and for mechanisms with functions of time.
+/// Velocities with `C·v = 0` that second order excludes while functions of time are held, n_v each.
+/// They are orthogonal, without dimensions, to the velocities that no form contains. Empty if
+/// second order does not decide.
 ///
 /// # Errors
-/// As [`is_locked`].
+/// As [`restrictions()`].
 pub fn blocked_velocities(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],
     decision: &RankDecision,
 ) -> Result<Vec<Vec<f64>>, StateError> {
-    if !may_block(mechanism, decision) {
-        return Ok(Vec::new());
-    }
-    let n = mechanism.layout().n_v;
-    let rest = vec![0.0; n];
-    state::check(mechanism, t, q, &rest)?;
-    let forms = Forms::new(mechanism, t, q, &rest, decision, &Matrix::zeros(n, 0));
-    let blocked = forms.ok().and_then(|forms| {
-        let basis = blocked::blocked(&forms)?.transpose();
-        Some(
-            (0..basis.nrows())
-                .map(|k| forms.velocity(basis.row(k)))
-                .collect(),
-        )
-    });
-    Ok(blocked.unwrap_or_default())
+    Ok(restrictions(mechanism, t, q, decision)?.velocities(SecondOrder::Blocked))
 }
 
 /// Whether second order can exclude velocities at all.
 fn may_block(mechanism: &Mechanism, decision: &RankDecision) -> bool {
-    let layout = mechanism.layout();
-    let has_freedom = decision.is_decided() && decision.rank < layout.n_v;
+    let has_freedom = decision.is_decided() && decision.rank < mechanism.layout().n_v;
     // Rows that are redundant within a tolerance only block nothing within it.
     let certificate = decision.evidence.certificate.as_ref();
     let is_within = certificate.is_some_and(|c| c.grounds == Grounds::WithinTolerance);
-    has_freedom && decision.redundancy > 0 && !layout.rheonomic && !is_within
+    has_freedom && decision.redundancy > 0 && !is_within
 }

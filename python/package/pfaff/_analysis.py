@@ -188,6 +188,11 @@ class GroupVerdict:
         return self.values.get("sum", float("nan"))
 
 
+def _number(value: float | None) -> float:
+    """A value of a document; NaN if no finite reaction exists."""
+    return float("nan") if value is None else value
+
+
 class Analysis:
     """The verdicts at one configuration."""
 
@@ -259,7 +264,7 @@ class Analysis:
     def combine(self, sum: str) -> GroupVerdict:
         """The verdict on a sum, as ``"W3.N + W4.N"``, or ``"W3 + W4"`` of whole wrenches."""
         found = json.loads(self._of.combine(sum))
-        values = {value["name"]: value["value"] for value in found.get("values", [])}
+        values = {value["name"]: _number(value["value"]) for value in found.get("values", [])}
         components = _components(found.get("components", []))
         return GroupVerdict(sum, found["verdict"], found["margin"], components, values)
 
@@ -316,7 +321,7 @@ class Analysis:
         hidden = choose is None
         return {
             r["name"]: {
-                c["name"]: float("nan") if hidden and "choice" in c else c["value"]
+                c["name"]: float("nan") if hidden and "choice" in c else _number(c["value"])
                 for c in r["components"]
             }
             for r in json.loads(self._of.distribution(choice))["reactions"]

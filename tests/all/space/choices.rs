@@ -2,7 +2,7 @@
 
 use model::System;
 use pfaff::{Overrides, Study};
-use solvability::{Choice, Compliance, Distribution, NormWeights, Value};
+use solvability::{Choice, Compliance, Distribution, NormWeights};
 
 use crate::examples;
 
@@ -37,9 +37,8 @@ fn on_body(d: &Distribution, joint: &str, component: &str) -> f64 {
     let reaction = d.reactions.iter().find(|r| r.name == joint);
     let components = &reaction.expect("a joint").components;
     let found = components.iter().find(|(name, _)| *name == component);
-    match &found.expect("a component").1 {
-        Value::Unique(value) | Value::Chosen { value, .. } => -value,
-    }
+    let value = &found.expect("a component").1;
+    -value.number().expect("finite reactions")
 }
 
 fn close(found: f64, expected: f64, size: f64, what: &str) {

@@ -63,11 +63,11 @@ fn locked(d: &SpatialDescription) -> bool {
     );
     let rest = rest.expect("a state");
     assert_eq!(
-        found,
+        found == Some(true),
         rest == Continuation::Unique && decision.rank < n,
         "{rest:?}"
     );
-    found
+    found == Some(true)
 }
 
 /// V24: turned by 150°, the triangle may screw about z at first order: `v_z = −ω/2`. Second order
@@ -133,6 +133,37 @@ fn its_self_stress_does_work_at_second_order() {
     }
     let work: f64 = z.iter().zip(&s.gamma).map(|(z, gamma)| z * gamma).sum();
     assert!((work - 3.0 * root).abs() < 1e-13, "{work}");
+}
+
+/// A platform on three legs of fixed length, each between two universal joints whose first axes are
+/// radial. The platform tilts at first order about any horizontal axis, in two ways, and two
+/// self-stresses resist at second order with forms like x² − y² and x·y: no combination of them is
+/// definite, and they have no common zero.
+#[test]
+fn a_platform_on_three_legs_is_blocked_without_a_definite_combination() {
+    let mut d = SpatialDescription::new("platform on three legs");
+    let platform = d.body(body("platform", [0.0, 0.0, 0.8]));
+    for k in 0..3 {
+        let (sin, cos) = (0.3 + f64::from(k) * 120.0_f64.to_radians()).sin_cos();
+        let [foot, head] =
+            [(0.4, 0.0), (0.25, 0.8)].map(|(radius, z)| [radius * cos, radius * sin, z]);
+        let leg = d.body(body(&format!("leg {k}"), [0.325 * cos, 0.325 * sin, 0.4]));
+        for (name, other, place) in [("base", BodyRef::Ground, foot), ("top", platform, head)] {
+            let s_i = match other {
+                BodyRef::Ground => place,
+                _ => d.local(other, place),
+            };
+            let hooke = Universal::new(
+                s_i,
+                d.local(leg, place),
+                Direction::new([cos, sin, 0.0]).expect("a direction"),
+                Direction::new([-sin, cos, 0.0]).expect("a direction"),
+            );
+            d.joint(&format!("{name} {k}"), &[other, leg], hooke);
+        }
+    }
+    assert!(locked(&d));
+    assert_eq!(blocked(&d).len(), 2);
 }
 
 /// What moves along a path is not blocked, although Grübler's count says so, and neither is what

@@ -4,7 +4,10 @@ use std::time::Instant;
 
 use integrators::{IntegrationError, Interval, Options, OutputTimes, Rows};
 use model::System;
-use solvability::{Group, contradicting_drives_along, drive_limit, generic};
+use solvability::{
+    Group, ONE_PART, contradicting_drives_along, decide_dropping, drive_limit, generic,
+    no_finite_reactions,
+};
 
 use super::caller::{ShowRow, Stop, Watch, named};
 use super::equations::RunEquations;
@@ -44,6 +47,7 @@ pub(super) fn run_component(
         ..plan.options().clone()
     };
     drives_agree(prepared, options.t_end).map_err(not_begun)?;
+    check_finite(prepared).map_err(not_begun)?;
     let begun = KeptRowMotion::evaluated(prepared, options, evaluator).and_then(|mut motion| {
         motion.begin(0.0, &mut prepared.q.clone())?;
         Ok(motion)
@@ -126,6 +130,29 @@ fn drives_agree(prepared: &Prepared, t_end: f64) -> Result<(), MotionError> {
     let found = contradicting_drives_along(&prepared.mechanism, &prepared.q, t_end);
     match found.unwrap_or_default() {
         Some(contradiction) => Err(contradiction.into()),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a start at which second order excludes the acceleration that the loads cause.
+fn check_finite(prepared: &Prepared) -> Result<(), MotionError> {
+    let (mechanism, decision) = (&prepared.mechanism, &prepared.decision);
+    let layout = mechanism.layout();
+    if decision.redundancy == 0 || decision.rank == layout.n_v || layout.rows() > ONE_PART {
+        return Ok(());
+    }
+    let (q, v) = (&prepared.q, &prepared.v);
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, q, &mut s);
+    mechanism.phi(&mut s);
+    mechanism.c(&mut s);
+    // What is redundant within a stated tolerance only is not redundant here.
+    let Ok(decision) = decide_dropping(mechanism, &s, q, &decision.dropped) else {
+        return Ok(());
+    };
+    let found = no_finite_reactions(mechanism, (0.0, q, v), &decision)?;
+    match found.into_iter().find(|found| found.decided) {
+        Some(found) => Err(MotionError::NoFiniteReaction(Box::new(found))),
         None => Ok(()),
     }
 }

@@ -16,7 +16,7 @@ use crate::fuzz::exact::rounded::{self, Suite};
 use crate::fuzz::exact::tally;
 use crate::fuzz::scenes::Space;
 use crate::fuzz::watch::Limits;
-use crate::fuzz::{input, numbers, passages, trial};
+use crate::fuzz::{forms, input, numbers, passages, trial};
 
 #[derive(Subcommand)]
 pub(super) enum Fuzz {
@@ -97,6 +97,19 @@ pub(super) enum Fuzz {
     /// Compares numbers on random motions with other solutions; exit code 1 if one that is called
     /// determined differs, or a mechanism that moves is refused
     Numbers(Scenes),
+    /// Decides whether quadratic forms have a common zero; exit code 1 if one decision is wrong, or
+    /// if too many are open
+    Forms {
+        /// How many sets
+        #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u64).range(1..))]
+        sets: u64,
+        /// Seed of all sets
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// The first set
+        #[arg(long, default_value_t = 0)]
+        from: u64,
+    },
     /// Tries inputs one after the other and answers each with a letter: what `run` begins
     #[command(hide = true)]
     Work {
@@ -297,6 +310,16 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
             bar.finish_and_clear();
             let seconds = clock.elapsed().as_secs_f64();
             let head = format!("seed {seed}: {runs} runs in {seconds:.1} s\n");
+            console.print(&(head + &tally.describe()))?;
+            passed(tally.passes())
+        }
+        Fuzz::Forms { sets, seed, from } => {
+            let clock = Instant::now();
+            let bar = progress(*sets);
+            let tally = forms::Tally::of(*seed, *from, *sets, || bar.inc(1));
+            bar.finish_and_clear();
+            let seconds = clock.elapsed().as_secs_f64();
+            let head = format!("seed {seed}: {sets} sets in {seconds:.1} s\n");
             console.print(&(head + &tally.describe()))?;
             passed(tally.passes())
         }

@@ -769,6 +769,17 @@ pub const TABLE: &[Entry] = &[
         Example::Scene("simulate - --out run", bar!("")),
     ),
     entry(
+        215,
+        "The loads push along a freedom that second order excludes",
+        "No finite reaction exists: remove the loads that the message names, support the freedom, or describe the small offset with which the mechanism carries them, such as the sag of a cable.",
+        Example::Scene(
+            "simulate - --out run --t-end 1",
+            scene!(
+                "gravity = [0.0, -9.81]\n\n[[body]]\nname = \"bar\"\nmass = 1.0\ninertia = 0.1\nposition = [0.5, 0.0]\n\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n\n[[joint]]\nname = \"B\"\ntype = \"distance\"\nbodies = [\"ground\", \"bar\"]\nat = [[2.0, 0.0], [1.0, 0.0]]\n"
+            ),
+        ),
+    ),
+    entry(
         220,
         "The state about which a motion is to be linearised is not steady",
         "Let `pfaff equilibrium SCENE --out DIR` find a start at rest and linearise that, or let dampers bring the mechanism there in a run and linearise at its end with `--at-time`. What no joint or spring ties to the ground, such as a robot on a free base, falls and has no place of rest: hold its base, or describe what carries it. A steady motion in a circle is steady in axes that turn: `--follow BODY.wz`.",

@@ -9,6 +9,11 @@ pub(super) struct Lines {
 }
 
 impl Lines {
+    /// Whether all values are the same.
+    pub(super) fn is_constant(&self) -> bool {
+        self.values.windows(2).all(|pair| pair[0] == pair[1])
+    }
+
     /// A function through at least two points with different times.
     pub(super) fn new(times: &[f64], values: &[f64]) -> Self {
         Self {

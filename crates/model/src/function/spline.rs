@@ -9,6 +9,11 @@ pub(super) struct Spline {
 }
 
 impl Spline {
+    /// Whether all values are the same.
+    pub(super) fn is_constant(&self) -> bool {
+        self.values.windows(2).all(|pair| pair[0] == pair[1])
+    }
+
     /// The spline through a table of at least two points with increasing times.
     ///
     /// Curvatures κ solve the tridiagonal system `h₋κ₋ + 2(h₋ + h₊)κ + h₊κ₊ = 6(δ₊ − δ₋)` with the

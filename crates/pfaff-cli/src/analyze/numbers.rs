@@ -33,7 +33,9 @@ pub(super) fn describe(choices: &[DistributionDocument]) -> String {
                 let all = columns_of.iter();
                 cells.extend(all.map(|column| number(&column[i].components[j])));
             }
-            if component.nature == Some(if is_fact { "choice" } else { "fact" }) {
+            if component.value.is_some()
+                && component.nature == Some(if is_fact { "choice" } else { "fact" })
+            {
                 suspicious.push(format!("{name} of {}", reaction.name));
             }
             table.push(cells);
@@ -59,10 +61,11 @@ pub(super) fn describe(choices: &[DistributionDocument]) -> String {
     out
 }
 
-/// Formats a number with six digits, and zero as `0`.
-pub(super) fn number(value: f64) -> String {
+/// Formats a number with six digits, zero as `0`, and no number as `none`.
+pub(super) fn number(value: Option<f64>) -> String {
     match value {
-        0.0 => "0".to_owned(),
-        value => format!("{value:.5e}"),
+        None => "none".to_owned(),
+        Some(0.0) => "0".to_owned(),
+        Some(value) => format!("{value:.5e}"),
     }
 }

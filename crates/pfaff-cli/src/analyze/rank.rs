@@ -76,16 +76,6 @@ fn motions(d: &AnalysisDocument) -> String {
         .collect()
 }
 
-fn cannot_move(d: &AnalysisDocument) -> String {
-    match &d.ranks.freedoms.without_drives {
-        None => "this mechanism cannot move".to_owned(),
-        Some(without) => format!(
-            "this mechanism cannot move, with {} or without",
-            without.possessive()
-        ),
-    }
-}
-
 fn proof(d: &AnalysisDocument) -> String {
     let e = &d.evidence;
     let r = d.ranks.rank;
@@ -191,11 +181,9 @@ fn elsewhere(d: &AnalysisDocument) -> String {
             format!("ONLY HERE: at {n} the redundancy falls to {p}; this configuration is singular")
         }
         (_, Some((p, n))) => format!("at {n} the redundancy is {p}"),
-        (_, None) if d.ranks.freedoms.cannot_move => {
-            format!(
-                "{}: there is no other configuration to compare with",
-                cannot_move(d)
-            )
+        (_, None) if d.ranks.freedoms.cannot_move == Some(true) => {
+            let sentence = d.ranks.freedoms.cannot_move_sentence(d.ranks.mobility);
+            format!("{sentence}: there is no other configuration to compare with")
         }
         (_, None) if d.configuration.rows > ONE_PART => {
             format!("not compared with other configurations: that takes long above {ONE_PART} rows")

@@ -74,11 +74,17 @@ impl ConfigurationAnalysis<'_> {
         document.warnings.extend(self.scene.cautions());
         document.add_notes(self.mechanism.layout());
         document.warnings.extend(only_here(&document, self));
-        // If other configurations were reached, the mechanism can move.
-        let cannot_move = generic.is_none() && self.cannot_move()?;
-        document.ranks.freedoms.cannot_move |= cannot_move;
-        if cannot_move && document.ranks.mobility > 0 {
-            document.warnings.push(locked(&document));
+        let layout = self.mechanism.layout();
+        let has_drives = layout.groups.iter().any(|group| group.is_drive());
+        let freedoms = &mut document.ranks.freedoms;
+        // Other configurations that were reached prove that the mechanism can move, unless
+        // drives, knife edges or the like were left free on the way.
+        if freedoms.cannot_move.is_none() && generic.is_some() && !has_drives && layout.h == 0 {
+            freedoms.cannot_move = Some(false);
+        }
+        document.warnings.extend(locked(&document));
+        for found in self.no_finite_reactions()? {
+            document.add_no_finite(&found);
         }
         document.answers.eliminations = Some(EliminationsDocument::new(self.eliminations(), None));
         Ok(document)
@@ -130,9 +136,13 @@ fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) ->
 }
 
 /// A sentence that the free velocities of first order are not motions.
-fn locked(d: &AnalysisDocument) -> String {
-    format!(
-        "mobility {} at first order, but this mechanism cannot move: second order blocks every velocity that the constraints allow",
-        d.ranks.mobility
-    )
+fn locked(d: &AnalysisDocument) -> Option<String> {
+    let freedoms = &d.ranks.freedoms;
+    let at_first_order = freedoms.first_order(d.ranks.mobility)?;
+    let sentence = freedoms.cannot_move_sentence(d.ranks.mobility);
+    (freedoms.cannot_move == Some(true)).then(|| {
+        format!(
+            "{at_first_order} at first order, but {sentence}: second order blocks every velocity that the constraints allow"
+        )
+    })
 }

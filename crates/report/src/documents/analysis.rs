@@ -16,14 +16,14 @@ use reaction::components;
 use serde::Serialize;
 use solvability::{
     Analysis, Dependency, Explanation, FrameVerdict, Freedoms, Generic, Mixing, MomentVerdict,
-    PartAnalysis, ReactionVerdict, Sensitivities, Sensitivity,
+    NoFiniteReaction, PartAnalysis, ReactionVerdict, Sensitivities, Sensitivity,
 };
 
 pub use along::{
     AlongDocument, ContinuationDocument, DifferenceDocument, GenericVerdictsDocument,
     NamedVerdictDocument, PassageDocument, StretchDocument,
 };
-pub use choices::{DistributionDocument, ValueDocument, ValuesDocument};
+pub use choices::{DistributionDocument, NoFiniteReactionDocument, ValueDocument, ValuesDocument};
 pub use data::DataDocument;
 pub use deletions::{EliminationsDocument, MakeUniqueDocument, WayDocument};
 pub use evidence::{EvidenceDocument, GenericDocument, NearlyRedundantDocument, PointDocument};
@@ -338,6 +338,21 @@ impl AnalysisDocument {
             }
         };
         self.reasons.mixing = explanation.mixing.iter().map(mixing).collect();
+    }
+
+    /// Adds which reactions have no number in the motion, with a warning for each set.
+    pub fn add_no_finite(&mut self, found: &NoFiniteReaction) {
+        for id in &found.reactions {
+            self.reactions[id.0].no_finite_reaction = Some(found.into());
+        }
+        let names = found.reactions.iter();
+        let names: Vec<String> = names
+            .map(|id| format!("`{}`", self.reactions[id.0].name))
+            .collect();
+        self.warnings.push(format!(
+            "{} without numbers: {found}",
+            model::words::listed(&names)
+        ));
     }
 
     /// Adds the notes of the definitions of the joints on their reactions.

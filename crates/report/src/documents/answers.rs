@@ -104,6 +104,8 @@ pub struct CheckDocument<'a, P> {
     pub mobility: Option<usize>,
     /// Mobility without the drives.
     pub mobility_without_drives: Option<usize>,
+    /// Whether no motion is possible; `null` if this is not decided.
+    pub cannot_move: Option<bool>,
     /// Joints, drives, forces and groups that are in the scene, but not active.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     pub inactive: &'a [String],

@@ -17,11 +17,14 @@ pub struct FreedomsDocument {
     /// Freedoms without a described motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free_motions_left_out: Option<LeftOutDocument>,
-    /// Those of the free motions that second order excludes: they lead nowhere.
+    /// A basis of the velocities that second order excludes: they are free at first order only.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub freedoms_blocked: Vec<FreeMotionDocument>,
-    /// Whether nothing can move, whatever the drives do.
-    pub cannot_move: bool,
+    /// A basis of the velocities for which second order neither excludes a motion nor proves one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub freedoms_undecided: Vec<FreeMotionDocument>,
+    /// Whether no motion is possible; `null` if this is not decided.
+    pub cannot_move: Option<bool>,
 }
 
 /// The mechanism without its drives.
@@ -83,6 +86,7 @@ impl FreedomsDocument {
             free_motions: documents(&freedoms.motions.motions, mechanism),
             free_motions_left_out: freedoms.motions.left_out.as_ref().map(Into::into),
             freedoms_blocked: documents(&freedoms.blocked, mechanism),
+            freedoms_undecided: documents(&freedoms.undecided, mechanism),
             cannot_move: freedoms.cannot_move,
         }
     }
@@ -101,13 +105,58 @@ impl FreedomsDocument {
         }
     }
 
-    /// The same phrase, with a remark if the mechanism cannot move.
+    /// The same phrase, with a remark if the mechanism cannot move, or if second order does not
+    /// decide whether it can.
     #[must_use]
     pub fn summary(&self, mobility: usize) -> String {
-        if self.cannot_move {
-            self.sentence(mobility) + ": it cannot move"
+        let sentence = self.sentence(mobility);
+        match self.cannot_move {
+            Some(true) if self.first_order(mobility).is_none() => sentence + ": it cannot move",
+            Some(true) => sentence + self.comma() + " at first order: it cannot move",
+            None if !self.freedoms_undecided.is_empty() => {
+                sentence + self.comma() + " at first order, not decided at second order"
+            }
+            _ => sentence,
+        }
+    }
+
+    /// After a phrase that has a comma, one more.
+    fn comma(&self) -> &'static str {
+        if self.without_drives.is_some() {
+            ","
         } else {
-            self.sentence(mobility)
+            ""
+        }
+    }
+
+    /// The freedoms of first order as a phrase, if there are any: "mobility 1", or "mobility 1
+    /// without its drive" if the drive alone takes the last one.
+    #[must_use]
+    pub fn first_order(&self, mobility: usize) -> Option<String> {
+        match (&self.without_drives, mobility) {
+            (Some(without), 0) if without.mobility > 0 => Some(format!(
+                "mobility {} without {}",
+                without.mobility,
+                without.possessive()
+            )),
+            (_, 0) => None,
+            (_, mobility) => Some(format!("mobility {mobility}")),
+        }
+    }
+
+    /// That the mechanism cannot move, as a sentence without a full stop.
+    #[must_use]
+    pub fn cannot_move_sentence(&self, mobility: usize) -> String {
+        match &self.without_drives {
+            None => "this mechanism cannot move".to_owned(),
+            Some(without) if mobility > 0 => format!(
+                "this mechanism cannot move while {} locked",
+                without.are_locked()
+            ),
+            Some(without) => format!(
+                "this mechanism cannot move, with {} or without",
+                without.possessive()
+            ),
         }
     }
 
@@ -133,9 +182,12 @@ impl FreedomsDocument {
             .collect()
     }
 
-    fn told(&self) -> Vec<Told<'_>> {
-        let mut told: Vec<Told<'_>> = Vec::new();
-        let lead = if self.cannot_move || !self.freedoms_blocked.is_empty() {
+    fn told<'a>(&'a self) -> Vec<Told<'a>> {
+        let mut told: Vec<Told<'a>> = Vec::new();
+        let is_restricted = self.cannot_move == Some(true)
+            || !self.freedoms_blocked.is_empty()
+            || !self.freedoms_undecided.is_empty();
+        let lead = if is_restricted {
             "free at first order"
         } else {
             "free"
@@ -147,11 +199,14 @@ impl FreedomsDocument {
             let left_out = without.free_motions_left_out.as_ref();
             tell(&mut told, &lead, &without.free_motions, left_out);
         }
-        if !self.cannot_move {
-            let blocked = self.freedoms_blocked.iter();
-            let lead = || "blocked at second order".to_owned();
-            told.extend(blocked.map(|motion| (lead(), motion.text.clone(), Some(motion))));
+        let mut add = |lead: &str, motions: &'a [FreeMotionDocument]| {
+            let motions = motions.iter();
+            told.extend(motions.map(|motion| (lead.to_owned(), motion.text.clone(), Some(motion))));
+        };
+        if self.cannot_move != Some(true) {
+            add("blocked at second order", &self.freedoms_blocked);
         }
+        add("not decided at second order", &self.freedoms_undecided);
         told
     }
 }
@@ -190,6 +245,14 @@ impl WithoutDrivesDocument {
         match self.drives {
             1 => "its drive",
             _ => "its drives",
+        }
+    }
+
+    /// "its drive is" or "its drives are".
+    fn are_locked(&self) -> &'static str {
+        match self.drives {
+            1 => "its drive is",
+            _ => "its drives are",
         }
     }
 }

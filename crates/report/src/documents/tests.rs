@@ -155,7 +155,7 @@ fn analysis_has_the_keys_of_the_contract() {
         "scene": "door", "time": 0.5, "bodies": 1, "coordinates": 3, "velocities": 3, "rows": 4,
         "holonomic_rows": 4, "nonholonomic_rows": 0,
         "rank": 3, "rank_holonomic": 3, "rank_nonholonomic": 0, "redundancy": 1, "mobility": 0,
-        "without_drives": null, "free_motions": [], "cannot_move": false,
+        "without_drives": null, "free_motions": [], "cannot_move": null,
         "kept_rows": [1, 2, 3], "dropped_rows": [4],
         "data": { "tolerance": 0.25, "angle_tolerance": 0.125, "lower_rank_from": null, "lower_rank_from_angle": null, "lower_rank_here": null },
         "evidence": { "status": "decided", "sigma_r": 0.5, "sigma_next": 0.0, "gap": null,

@@ -183,7 +183,7 @@ fn answer(page: &RunPage<'_>) -> String {
             p => format!("{} are redundant", count(p)),
         };
         let mut freedoms = match a.ranks.mobility {
-            _ if page.freedoms().is_some_and(|f| f.cannot_move) => {
+            _ if page.freedoms().is_some_and(|f| f.cannot_move == Some(true)) => {
                 "the mechanism cannot move".to_owned()
             }
             1 => "one freedom of motion is left".to_owned(),

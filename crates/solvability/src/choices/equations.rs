@@ -1,6 +1,9 @@
 //! The equations for the multipliers, and the solution of them on the kept rows of the rank
 //! decision; the multipliers of dropped rows are zero.
 
+use std::sync::Arc;
+
+use crate::finite::NoFiniteReaction;
 use crate::limits::{AGREEMENT, ROWS_MAX};
 use crate::pose::velocity_units;
 use crate::row_decision::RowDecision;
@@ -106,6 +109,9 @@ pub struct Solution {
     pub acceleration: Vec<f64>,
     /// λ with zeros on the dropped rows. All other solutions are `λ + Z·y`.
     pub multipliers: Vec<f64>,
+    /// Reactions that have no finite value in the motion, whatever the multipliers say:
+    /// [`crate::no_finite_reactions`]. Empty unless the caller asks for them.
+    pub no_finite: Vec<Arc<NoFiniteReaction>>,
 }
 
 impl Equations {
@@ -209,6 +215,7 @@ impl Equations {
         let solution = Solution {
             acceleration: a,
             multipliers: on_all_rows(kept, of_kept, m),
+            no_finite: Vec::new(),
         };
         Ok((solution, saddle))
     }
@@ -333,6 +340,7 @@ fn sparse_solution(
     Ok(Solution {
         acceleration: a,
         multipliers: on_all_rows(kept, of_kept, layout.rows()),
+        no_finite: Vec::new(),
     })
 }
 

@@ -8,6 +8,7 @@ use model::{ConstraintId, Layout, RowLabel};
 
 use super::error::{list, row_word};
 use super::{Choice, Compliance};
+use crate::finite::NoFiniteReaction;
 use crate::words;
 
 /// A number of a distribution.
@@ -22,6 +23,20 @@ pub enum Value {
         /// The choice on which the number depends.
         by: Label,
     },
+    /// No number, whatever the verdict and the choice: the equations have solutions, but the motion
+    /// does not have finite reactions, or it is not decided whether it has.
+    NotFinite(Arc<NoFiniteReaction>),
+}
+
+impl Value {
+    /// The number with or without its label; `None` if there is none.
+    #[must_use]
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Unique(value) | Self::Chosen { value, .. } => Some(*value),
+            Self::NotFinite(_) => None,
+        }
+    }
 }
 
 impl fmt::Display for Value {
@@ -32,6 +47,7 @@ impl fmt::Display for Value {
                 fmt::Display::fmt(value, f)?;
                 write!(f, " ({by})")
             }
+            Self::NotFinite(why) => fmt::Display::fmt(why, f),
         }
     }
 }
@@ -40,8 +56,10 @@ impl std::ops::Add for Value {
     type Output = Self;
 
     /// A sum is unique if both numbers are; a sum of two chosen numbers has the label of the first.
+    /// Without one of the numbers there is no sum.
     fn add(self, other: Self) -> Self {
         match (self, other) {
+            (Self::NotFinite(why), _) | (_, Self::NotFinite(why)) => Self::NotFinite(why),
             (Self::Unique(a), Self::Unique(b)) => Self::Unique(a + b),
             (Self::Unique(a), Self::Chosen { value, by })
             | (Self::Chosen { value, by }, Self::Unique(a)) => Self::Chosen {

@@ -15,7 +15,7 @@ fn most(forms: &Forms) -> usize {
 pub(super) fn others(forms: &Forms) -> Vec<Vec<f64>> {
     let mut found: Vec<Vec<f64>> = Vec::new();
     for start in 0..BRANCH_STARTS * most(forms) {
-        let Some(a) = solve(forms, starting_point(forms.len(), start)) else {
+        let Some(a) = solve(&forms.matrices, starting_point(forms.len(), start)) else {
             continue;
         };
         let is_new = |b: &Vec<f64>| {
@@ -35,7 +35,7 @@ pub(super) fn others(forms: &Forms) -> Vec<Vec<f64>> {
 }
 
 /// A unit vector as starting point; no two starts are the same.
-fn starting_point(n: usize, start: usize) -> Vec<f64> {
+pub(super) fn starting_point(n: usize, start: usize) -> Vec<f64> {
     // Square roots of primes: their multiples are evenly distributed in all directions together.
     const PRIMES: [f64; 8] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0];
     let place = (start + 1) as f64;
@@ -61,13 +61,13 @@ fn unit(mut a: Vec<f64>) -> Vec<f64> {
 }
 
 /// The solution to which the iteration converges from a.
-fn solve(forms: &Forms, mut a: Vec<f64>) -> Option<Vec<f64>> {
-    let (n, equations) = (forms.len(), forms.matrices.len() + 1);
+pub(super) fn solve(forms: &[Matrix], mut a: Vec<f64>) -> Option<Vec<f64>> {
+    let (n, equations) = (a.len(), forms.len() + 1);
     let weights = vec![1.0; n];
     for _ in 0..BRANCH_ITERATIONS {
         let mut jacobian = Matrix::zeros(equations, n);
         let mut residual = vec![0.0; equations];
-        for (s, form) in forms.matrices.iter().enumerate() {
+        for (s, form) in forms.iter().enumerate() {
             let image = form.times(&a);
             residual[s] = a.iter().zip(&image).map(|(a, m)| a * m).sum();
             for (j, m) in jacobian.row_mut(s).iter_mut().zip(&image) {

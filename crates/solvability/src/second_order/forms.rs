@@ -37,9 +37,37 @@ impl Forms {
         decision: &RankDecision,
         regular: &Matrix,
     ) -> Result<Self, Undetermined> {
+        let driven = mechanism.layout().rheonomic;
+        Self::of(mechanism, (t, q, v), decision, regular, driven)
+    }
+
+    /// The forms of the velocities with `C·v = 0` alone: functions of time are held.
+    pub(super) fn held(
+        mechanism: &Mechanism,
+        t: f64,
+        q: &[f64],
+        decision: &RankDecision,
+    ) -> Result<Self, Undetermined> {
+        let n = mechanism.layout().n_v;
+        let rest = vec![0.0; n];
+        Self::of(
+            mechanism,
+            (t, q, &rest),
+            decision,
+            &Matrix::zeros(n, 0),
+            false,
+        )
+    }
+
+    fn of(
+        mechanism: &Mechanism,
+        (t, q, v): (f64, &[f64], &[f64]),
+        decision: &RankDecision,
+        regular: &Matrix,
+        driven: bool,
+    ) -> Result<Self, Undetermined> {
         let mut s = evaluated(mechanism, t, q);
         let size = scene_size(mechanism, q);
-        let driven = mechanism.layout().rheonomic;
         let units = velocity_units(mechanism, size);
         let c = dimensionless(mechanism, &s, size);
         let n = c.ncols();

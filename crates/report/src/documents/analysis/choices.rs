@@ -3,7 +3,7 @@
 
 use model::{ConstraintId, Frame};
 use serde::Serialize;
-use solvability::{Distribution, Nature, UnitCheck, Value};
+use solvability::{Distribution, Nature, NoFiniteReaction, UnitCheck, Value};
 
 /// The reactions for one choice.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -37,8 +37,8 @@ pub struct ValueDocument {
     /// Name of the component; absent for multipliers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<&'static str>,
-    /// The number.
-    pub value: f64,
+    /// The number; `null` if there is none, whatever the verdict.
+    pub value: Option<f64>,
     /// The choice on which it depends; absent for unique numbers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choice: Option<String>,
@@ -46,6 +46,34 @@ pub struct ValueDocument {
     /// requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nature: Option<&'static str>,
+    /// Why there is no number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_finite_reaction: Option<NoFiniteReactionDocument>,
+}
+
+/// Reason why a reaction has no number although the equations have solutions: the loads push along
+/// a freedom that second order excludes.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct NoFiniteReactionDocument {
+    /// The freedom, in words.
+    pub freedom: String,
+    /// The loads that push along it.
+    pub loads: Vec<String>,
+    /// `false` if second order decides neither that finite reactions exist nor that they do not;
+    /// absent otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decided: Option<bool>,
+}
+
+impl From<&NoFiniteReaction> for NoFiniteReactionDocument {
+    fn from(found: &NoFiniteReaction) -> Self {
+        Self {
+            freedom: found.freedom.clone(),
+            loads: found.loads.clone(),
+            decided: (!found.decided).then_some(false),
+        }
+    }
 }
 
 impl DistributionDocument {
@@ -103,15 +131,17 @@ impl ValueDocument {
     }
 
     fn new(name: Option<&'static str>, value: &Value, nature: Option<&'static str>) -> Self {
-        let (value, choice) = match value {
-            Value::Unique(value) => (*value, None),
-            Value::Chosen { value, by } => (*value, Some(by.to_string())),
+        let (number, choice, no_finite_reaction) = match value {
+            Value::Unique(value) => (Some(*value), None, None),
+            Value::Chosen { value, by } => (Some(*value), Some(by.to_string()), None),
+            Value::NotFinite(why) => (None, None, Some((&**why).into())),
         };
         Self {
             name,
-            value,
+            value: number,
             choice,
             nature,
+            no_finite_reaction,
         }
     }
 }

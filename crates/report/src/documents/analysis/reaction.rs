@@ -8,7 +8,7 @@ use solvability::{
     Sensitivities, Sensitivity, Value,
 };
 
-use super::ValueDocument;
+use super::{NoFiniteReactionDocument, ValueDocument};
 use crate::documents::{SensitivityDocument, VerdictDocument};
 
 /// The verdict on a joint or drive.
@@ -62,6 +62,9 @@ pub struct ReactionDocument {
     /// The nearest point (m) about which its moment is unique, if it is not about the place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moment_unique_about: Option<Vec<f64>>,
+    /// Why it has no number in the motion, whatever its verdict.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_finite_reaction: Option<NoFiniteReactionDocument>,
 }
 
 /// The verdict on a moment about a point.
@@ -298,6 +301,7 @@ impl From<&ReactionVerdict> for ReactionDocument {
             frames: Vec::new(),
             moment: None,
             moment_unique_about: None,
+            no_finite_reaction: None,
         }
     }
 }

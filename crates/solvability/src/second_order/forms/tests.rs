@@ -1,7 +1,7 @@
 //! Forms whose solutions stand in closed form, on either side of what is decided by.
 
 use super::*;
-use crate::second_order::{blocked::is_blocked, branches::others};
+use crate::second_order::{branches::others, definite::is_blocked};
 
 /// Forms with one regular motion at most, `x`, and new ones.
 fn forms(x: usize, matrices: &[Matrix]) -> Forms {

@@ -3,7 +3,7 @@
 //! Then y = 0. For one new motion the proof exists whenever the statement is true.
 
 use crate::limits::{BLOCKED_CORRECTIONS, FORM_NOISE, MARGIN};
-use linalg::{Matrix, PivotedQr};
+use linalg::Matrix;
 
 use super::forms::Forms;
 
@@ -32,20 +32,6 @@ pub(super) fn is_blocked(forms: &Forms) -> bool {
     has_definite_combination(&definite, y)
 }
 
-/// Of forms without a motion of their own: an orthonormal basis, in columns, of the new motions in
-/// which a combination of the forms is definite, across those that no form contains. Returns `None`
-/// if no combination was found.
-pub(super) fn blocked(forms: &Forms) -> Option<Matrix> {
-    let (n, count) = (forms.len(), forms.matrices.len());
-    let stacked = Matrix::from_fn(n * count, n, |k, j| forms.matrices[k / n][(k % n, j)]);
-    let qr = PivotedQr::of_rows(stacked);
-    let rank = qr.r_diagonal().filter(|r| r.abs() > FORM_NOISE).count();
-    let basis = qr.q_columns(0..rank);
-    let own = |m: &Matrix| basis.transpose().product(&m.product(&basis));
-    let own: Vec<Matrix> = forms.matrices.iter().map(own).collect();
-    (rank > 0 && has_definite_combination(&own, rank)).then_some(basis)
-}
-
 /// Orthonormal vectors w with `wᵀ·mixed = 0`.
 fn combinations(decision: &rank::RankDecision) -> Vec<Vec<f64>> {
     let mut z = rank::orthonormal(decision);
@@ -61,7 +47,7 @@ fn combinations(decision: &rank::RankDecision) -> Vec<Vec<f64>> {
 
 /// Perceptron: while there is a y with too small `yᵀ·G·y`, G moves towards the matrices that are
 /// positive for this y.
-fn has_definite_combination(matrices: &[Matrix], n: usize) -> bool {
+pub(super) fn has_definite_combination(matrices: &[Matrix], n: usize) -> bool {
     let mut w: Vec<f64> = matrices
         .iter()
         .map(|m| (0..n).map(|i| m[(i, i)]).sum())

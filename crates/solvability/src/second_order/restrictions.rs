@@ -1,0 +1,189 @@
+//! What second order says of the velocities with `C·v = 0`, while functions of time are held.
+//!
+//! The velocities that no form contains are unrestricted: second order excludes none of them. The
+//! others are orthogonal to these and fall apart into sets of bodies that joints connect, because
+//! self-stresses do. Each set is decided alone.
+
+use crate::limits::{FORM_NOISE, OWN_SHARE};
+use linalg::{Matrix, PivotedQr, small_svd};
+use model::start::scene_size;
+use model::{Mechanism, System};
+
+use super::forms::Forms;
+use super::undetermined::Undetermined;
+use super::zeros::{CommonZero, common_zero, is_transversal};
+use crate::pose::velocity_units;
+
+/// What second order says of velocities with `C·v = 0`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SecondOrder {
+    /// No combination of them satisfies the second-order equations: no motion has such a velocity.
+    Blocked,
+    /// Some of them satisfy the equations, and do so if coefficients change a little.
+    Free,
+    /// Neither is proved.
+    Undecided,
+}
+
+/// Velocities of connected bodies that the second-order equations restrict.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Restricted {
+    /// The bodies, ascending.
+    pub bodies: Vec<usize>,
+    /// A basis of the velocities, n_v each, orthonormal without dimensions; they are orthogonal to
+    /// the velocities that no equation contains.
+    pub velocities: Vec<Vec<f64>>,
+    /// The decision.
+    pub second_order: SecondOrder,
+    /// The equations in coordinates of this basis, and the error of their coefficients.
+    pub(crate) forms: Vec<Matrix>,
+}
+
+/// The restrictions of second order at one configuration.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct Restrictions {
+    /// Restricted velocities, set by set.
+    pub restricted: Vec<Restricted>,
+    /// Number of independent velocities that no equation contains.
+    pub unrestricted: usize,
+    /// Why there are no equations, although there may be restrictions.
+    pub undetermined: Option<Undetermined>,
+}
+
+/// What second order says of an acceleration from rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Accelerated {
+    /// It satisfies the equations, and there is such an acceleration if coefficients change a
+    /// little.
+    Possible,
+    /// It does not satisfy them.
+    Excluded,
+    /// Neither is proved.
+    Undecided,
+}
+
+impl Restricted {
+    /// What second order says of an acceleration from rest with these coordinates, not all zero.
+    pub(crate) fn accelerated(&self, along: &[f64]) -> Accelerated {
+        let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let a: Vec<f64> = along.iter().map(|x| x / length).collect();
+        let size: f64 = a.iter().map(|x| x.abs()).sum();
+        let value = |m: &Matrix| -> f64 { a.iter().zip(m.times(&a)).map(|(a, m)| a * m).sum() };
+        let mut values = self.forms.iter().map(|m| value(m).abs());
+        if self.second_order == SecondOrder::Blocked || values.any(|x| x > FORM_NOISE * size * size)
+        {
+            Accelerated::Excluded
+        } else if is_transversal(&self.forms, FORM_NOISE, &a) {
+            Accelerated::Possible
+        } else {
+            Accelerated::Undecided
+        }
+    }
+}
+
+impl Restrictions {
+    /// Whether second order excludes every velocity: `None` if it does not decide. Without free
+    /// velocities there is nothing to exclude.
+    #[must_use]
+    pub fn exclude_all(&self) -> Option<bool> {
+        let mut decisions = self.restricted.iter().map(|r| r.second_order);
+        if self.unrestricted > 0 || self.restricted.is_empty() {
+            return match self.undetermined {
+                Some(_) => None,
+                None => Some(false),
+            };
+        }
+        if decisions.clone().any(|d| d == SecondOrder::Free) {
+            return Some(false);
+        }
+        decisions.all(|d| d == SecondOrder::Blocked).then_some(true)
+    }
+
+    /// A basis of the velocities with this decision, n_v each.
+    #[must_use]
+    pub fn velocities(&self, second_order: SecondOrder) -> Vec<Vec<f64>> {
+        let sets = self.restricted.iter();
+        let sets = sets.filter(|set| set.second_order == second_order);
+        sets.flat_map(|set| set.velocities.clone()).collect()
+    }
+
+    /// The restrictions by forms without a motion of their own.
+    pub(super) fn of(forms: &Forms, mechanism: &Mechanism, q: &[f64]) -> Self {
+        let basis = restricted(forms);
+        let sets = sets(forms, &basis, mechanism, q);
+        let decided = |(bodies, own): (Vec<usize>, Matrix)| {
+            let across = own.transpose();
+            let in_set = |m: &Matrix| own.product(&m.product(&across));
+            let in_set: Vec<Matrix> = forms.matrices.iter().map(in_set).collect();
+            Restricted {
+                bodies,
+                velocities: (0..own.nrows())
+                    .map(|k| forms.velocity(own.row(k)))
+                    .collect(),
+                second_order: match common_zero(&in_set, FORM_NOISE) {
+                    CommonZero::None => SecondOrder::Blocked,
+                    CommonZero::Transversal(_) => SecondOrder::Free,
+                    CommonZero::Undecided => SecondOrder::Undecided,
+                },
+                forms: in_set,
+            }
+        };
+        Self {
+            unrestricted: forms.len() - basis.nrows(),
+            restricted: sets.into_iter().map(decided).collect(),
+            undetermined: None,
+        }
+    }
+}
+
+/// Orthonormal rows that span the coordinates that the forms contain.
+fn restricted(forms: &Forms) -> Matrix {
+    let (n, count) = (forms.len(), forms.matrices.len());
+    let stacked = Matrix::from_fn(n * count, n, |k, j| forms.matrices[k / n][(k % n, j)]);
+    let qr = PivotedQr::of_rows(stacked);
+    let rank = qr.r_diagonal().filter(|r| r.abs() > FORM_NOISE).count();
+    qr.q_columns(0..rank).transpose()
+}
+
+/// The same coordinates, apart for each set of connected bodies: orthonormal rows.
+fn sets(
+    forms: &Forms,
+    basis: &Matrix,
+    mechanism: &Mechanism,
+    q: &[f64],
+) -> Vec<(Vec<usize>, Matrix)> {
+    let groups: Vec<usize> = (0..mechanism.layout().groups.len()).collect();
+    let units = velocity_units(mechanism, scene_size(mechanism, q));
+    let unit = |v: Vec<f64>| -> Vec<f64> { v.iter().zip(&units).map(|(v, u)| v / u).collect() };
+    let all: Vec<Vec<f64>> = (0..forms.len())
+        .map(|k| unit(forms.velocity(&unit_vector(forms.len(), k))))
+        .collect();
+    let moving: Vec<Vec<f64>> = (0..basis.nrows())
+        .map(|k| unit(forms.velocity(basis.row(k))))
+        .collect();
+    let mut found = Vec::new();
+    for bodies in mechanism.joined(&groups) {
+        let columns: Vec<usize> = bodies
+            .iter()
+            .flat_map(|&b| mechanism.space().columns_of(b))
+            .collect();
+        // What of each coordinate moves these bodies, in coordinates of the forms. The sum over the
+        // sets is direct, so each singular value is one or zero.
+        let own = Matrix::from_fn(moving.len(), all.len(), |k, l| {
+            columns.iter().map(|&j| moving[k][j] * all[l][j]).sum()
+        });
+        let svd = small_svd(&own);
+        let rank = svd.sigma.iter().filter(|s| **s > OWN_SHARE).count();
+        if rank > 0 {
+            let rows = Matrix::from_fn(rank, all.len(), |k, l| svd.v[(l, k)]);
+            found.push((bodies, rows));
+        }
+    }
+    found
+}
+
+fn unit_vector(n: usize, k: usize) -> Vec<f64> {
+    (0..n).map(|i| f64::from(i == k)).collect()
+}

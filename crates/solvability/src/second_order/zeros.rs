@@ -1,0 +1,86 @@
+//! Do quadratic forms have a common real zero other than the origin?
+//!
+//! Each of the three results is a proof for every set of forms whose coefficients differ from the
+//! given ones by at most a stated error, or the result is that nothing is proved:
+//!
+//! - [`CommonZero::None`]: a combination of the forms is definite, or boxes cover the sphere in
+//!   each of which some combination has no zero ([`covering`]).
+//! - [`CommonZero::Transversal`]: an interval Newton test finds a zero at which the gradients of
+//!   the forms are independent ([`transversal`]).
+//! - [`CommonZero::Undecided`]: double zeros, and as many independent forms as unknowns with a
+//!   common zero. Arbitrarily small changes of the coefficients remove them.
+//!
+//! Source of the test: R. Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit
+//! Fehlerschranken, Computing 4 (1969) 187–201.
+
+mod covering;
+mod independent;
+mod transversal;
+
+use linalg::Matrix;
+
+use super::definite::has_definite_combination;
+use crate::limits::{COVERED_UNKNOWNS, MARGIN};
+use independent::Independent;
+
+/// Whether quadratic forms `aᵀ·M_s·a` have a common zero a ≠ 0.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum CommonZero {
+    /// They have none.
+    None,
+    /// They have one near this unit vector, and forms with slightly different coefficients do, too.
+    Transversal(Vec<f64>),
+    /// Neither is proved within the error of the coefficients.
+    Undecided,
+}
+
+/// Decides whether symmetric matrices M_s (d × d, finite) have a common zero a ≠ 0 of
+/// `aᵀ·M_s·a`, if each coefficient may be wrong by `error` (absolute; the forms are used as they
+/// are). Without forms, or if all of them are zero, nothing is transversal: the result is
+/// undecided.
+///
+/// ```
+/// use linalg::Matrix;
+/// use solvability::{CommonZero, common_zero};
+/// let form = |a: f64, b: f64, c: f64| Matrix::from_rows(&[[a, b], [b, c]]);
+/// // x² − y² and x·y: no combination is definite, and there is no common zero.
+/// let forms = [form(1.0, 0.0, -1.0), form(0.0, 0.5, 0.0)];
+/// assert_eq!(common_zero(&forms, 1e-12), CommonZero::None);
+/// // x² − y² alone has simple zeros, (x − y)² a double one.
+/// assert!(matches!(common_zero(&forms[..1], 1e-12), CommonZero::Transversal(_)));
+/// assert_eq!(common_zero(&[form(1.0, -1.0, 1.0)], 1e-12), CommonZero::Undecided);
+/// ```
+///
+/// # Panics
+/// If the matrices are not square and of one size.
+#[must_use]
+pub fn common_zero(forms: &[Matrix], error: f64) -> CommonZero {
+    let unknowns = forms.first().map_or(0, Matrix::ncols);
+    let is_square = |m: &Matrix| m.nrows() == unknowns && m.ncols() == unknowns;
+    assert!(forms.iter().all(is_square), "square matrices of one size");
+    let independent = Independent::of(forms, unknowns, error);
+    if independent.forms.is_empty() {
+        return CommonZero::Undecided;
+    }
+    let doubt = independent.error.iter().sum::<f64>() * unknowns as f64;
+    if doubt < MARGIN && has_definite_combination(&independent.forms, unknowns) {
+        return CommonZero::None;
+    }
+    if let Some(zero) = transversal::found(&independent) {
+        return CommonZero::Transversal(zero);
+    }
+    if unknowns <= COVERED_UNKNOWNS && covering::excludes(&independent) {
+        return CommonZero::None;
+    }
+    CommonZero::Undecided
+}
+
+/// Whether a test proves that the forms have a common zero near a, at which their gradients are
+/// independent.
+pub(super) fn is_transversal(forms: &[Matrix], error: f64, a: &[f64]) -> bool {
+    transversal::is_proved(&Independent::of(forms, a.len(), error), a)
+}
+
+#[cfg(test)]
+mod tests;
