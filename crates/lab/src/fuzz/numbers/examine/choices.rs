@@ -78,6 +78,8 @@ impl Examined<'_> {
                 let (given, permitted) = match value {
                     Value::Unique(x) => (x, AT_STATE * reference(verdict, &[*right], instant.load)),
                     Value::Chosen { value, .. } => (value, CHOSEN * largest),
+                    // No number is not a wrong one.
+                    Value::NotFinite(_) => continue,
                 };
                 if (form.unit * given - right).abs() > permitted.max(AT_STATE * LOAD) {
                     let text = format!(
