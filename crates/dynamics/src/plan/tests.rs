@@ -187,6 +187,7 @@ fn rows_that_nobody_wants_are_not_computed() {
         rows: Rows::Ends,
         accelerations: false,
         reactions: Reactions::None,
+        groups: Vec::new(),
     };
     let plan = Plan::new(&p, &to(2.0), &wanted).expect("a plan");
     let mut times = Vec::new();
@@ -235,6 +236,7 @@ fn interpolated_rows_are_those_on_the_constraints_to_the_tolerance() {
             rows,
             accelerations: false,
             reactions: Reactions::None,
+            groups: Vec::new(),
         };
         let plan = Plan::new(&p, &to(2.0), &wanted).expect("a plan");
         let mut states = Vec::new();
@@ -263,7 +265,7 @@ type Row = (f64, Vec<f64>, Vec<f64>, Vec<f64>, Vec<model::Reaction>);
 fn record(p: &Prepared, options: &MotionOptions) -> (Vec<Row>, Result<Summary, Box<Failure>>) {
     let mut rows = Vec::new();
     let outcome = crate::simulate(p, options, |s| {
-        let (a, reactions) = (s.acceleration()?, s.reactions()?);
+        let (a, reactions) = (s.acceleration()?, s.reactions()?.as_chosen().to_vec());
         rows.push((s.t, s.q.to_vec(), s.v.to_vec(), a, reactions));
         Ok(ControlFlow::Continue(()))
     });

@@ -476,7 +476,7 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     };
     let error = MotionError::from(DropError::NotRedundant);
     let sensitivities = Sensitivities::default();
-    let mut stretches = Stretches::unique(&prepared.mechanism, [0.0, 1.5], &[]);
+    let stretches = Stretches::unique(&prepared.mechanism, [0.0, 1.5], &[]);
     let run = |ending, stretches| Run {
         rows: 3,
         files: &["trajectory.csv", "summary.json"],
@@ -502,8 +502,9 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     assert_eq!(document.events[0].kind, "rows-exchanged");
     // Where everything is determined there is no choice.
     assert_eq!(document.choice, []);
-    stretches.reactions[0].whole = VerdictTrack::constant([0.0, 1.5], Verdict::NotUnique);
-    let open = RunDocument::new(&run(Ending::Interrupted, &stretches));
+    let mut partly = stretches.clone();
+    partly.reactions[0].whole = VerdictTrack::constant([0.0, 1.5], Verdict::NotUnique);
+    let open = RunDocument::new(&run(Ending::Interrupted, &partly));
     assert!(open.partial && open.error.is_none());
     let choices = open.choice.iter();
     let choices = choices.map(|c| (c.from, c.to, c.deleted_rows.as_slice()));
