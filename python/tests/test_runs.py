@@ -88,6 +88,89 @@ def test_what_is_not_unique_is_not_a_number() -> None:
     assert np.isfinite(one.reaction("right").force).all()
 
 
+def test_verdicts_of_a_run_are_those_of_its_stretch() -> None:
+    """The cart of the book: at the start across is y; as it turns, x and y both have a share."""
+    cart = (
+        pfaff.Scene("cart", space="plane")
+        .body("cart", mass=10.0, inertia=1.0, velocity=[1.0, 0.0], angular_velocity=1.0)
+        .joint("left", "knife-edge", "cart", at=[0.0, 0.5], normal=[0.0, 1.0])
+        .joint("right", "knife-edge", "cart", at=[0.0, -0.5], normal=[0.0, 1.0])
+        .group("both", combine="left + right")
+        .group("side", combine="left.N + right.N")
+        .group("wheels", members=["left", "right"])
+    )
+    assert cart.analyze().verdicts["left"].components["Fx"].unique
+    run = cart.simulate(3.0)
+    for name in ("left", "right"):
+        assert np.isnan(run.reaction(name).force).all()
+        assert run.document["reactions"][name]["components"]["Fx"]["verdict"] == "not_unique"
+        assert run.document["reactions"][name]["at_start"]["verdict"] == "not_unique"
+    generic = {r["name"]: r["components"] for r in cart.analyze().along(3.0)["generic"]["reactions"]}
+    for components in generic.values():
+        words = {c["name"]: c["verdict"] for c in components}
+        assert words == {"Fx": "not_unique", "Fy": "not_unique"}
+    special = {(s["time"], s["name"], s["component"], s["verdict"]) for s in run.document["special"]}
+    assert {(0.0, "left", "Fx", "unique"), (0.0, "right", "Fx", "unique")} <= special
+    # The sum is m·v·omega, to the left of the cart, on its first body.
+    both, angle = run.group("both"), run.body("cart").angle
+    across = np.column_stack((-np.sin(angle), np.cos(angle)))
+    force = np.column_stack((both["Fx"], both["Fy"]))
+    sign = np.sign(force[0, 1])
+    np.testing.assert_allclose(force, sign * 10.0 * across, atol=1e-5)
+    side = run.group("side")
+    np.testing.assert_allclose(np.abs(side[side.columns[0]]), 10.0, atol=1e-5)
+    assert run.reaction_columns[-4:] == ["both.Fx", "both.Fy", "both.T", "side"]
+    # One verdict for several joints has no number.
+    assert run.document["groups"]["wheels"]["verdict"] == "not_unique"
+    with pytest.raises(pfaff.InputError, match="there is no group with numbers `wheels`"):
+        run.group("wheels")
+
+
+def upright_cranks() -> pfaff.Scene:
+    """Three equal cranks carry a coupler; one pivot is written as two guides. Upright at the start."""
+    scene = pfaff.Scene("three cranks", space="plane", gravity=[0.0, -10.0])
+    names = ("one", "two", "three")
+    for x, name in enumerate(names):
+        scene = scene.body(
+            f"crank {name}",
+            mass=1.0,
+            inertia=0.02,
+            position=[float(x), 0.25],
+            angle=math.pi / 2.0,
+            velocity=[-0.5, 0.0],
+            angular_velocity=2.0,
+        )
+    scene = scene.body("coupler", mass=3.0, inertia=1.0, position=[1.0, 0.5], velocity=[-1.0, 0.0])
+    for x, name in enumerate(names):
+        crank = f"crank {name}"
+        scene = scene.joint(f"tip {name}", "revolute", [crank, "coupler"], at=[float(x), 0.5])
+        if name != "two":
+            scene = scene.joint(f"pivot {name}", "revolute", ["ground", crank], at=[float(x), 0.0])
+    for name, line in (("x", [[1.0, -1.0], [1.0, 1.0]]), ("y", [[0.0, 0.0], [2.0, 0.0]])):
+        guide = {"at": [1.0, 0.0], "line": line}
+        scene = scene.joint(f"guide-{name}", "point-on-line", "crank two", **guide)
+    return scene
+
+
+def test_what_is_unique_at_the_start_only_has_no_number() -> None:
+    scene = upright_cranks()
+    start = scene.analyze().verdicts["guide-x"]
+    assert start.unique and start.components["Fx"].unique
+    run = scene.simulate(0.4)
+    assert np.isnan(run.reaction("guide-x")["Fx"]).all()
+    assert run.document["reactions"]["guide-x"]["verdict"] == "not_unique"
+    assert run.document["reactions"]["guide-x"]["at_start"]["verdict"] == "unique"
+    special = [s for s in run.document["special"] if s["name"] == "guide-x"]
+    assert [(s["time"], s["verdict"]) for s in special if s["component"] == "Fx"] == [(0.0, "unique")]
+    # Two choices differ, on one motion: the number was the choice's.
+    sets = scene.analyze(0.2).eliminations()["sets"]
+    runs = [scene.simulate(0.4, choose=rows) for rows in sets]
+    ends = [run.reaction("guide-x")["Fx"][-1] for run in runs]
+    assert len(sets) > 1 and np.ptp(ends) > 10.0
+    for other in runs:
+        np.testing.assert_allclose(other.trajectory, runs[0].trajectory, atol=1e-6)
+
+
 def test_arrays_are_made_once_and_stay() -> None:
     run = pfaff.Scene.from_string(PENDULUM).simulate()
     body = run.body("bob")

@@ -78,7 +78,8 @@ def test_a_later_time_and_a_tolerance(command: Command) -> None:
 def _table(path: Path) -> tuple[list[str], np.ndarray[Any, Any]]:
     with path.open(encoding="utf-8", newline="") as file:
         header, *rows = csv.reader(file)
-    return header, np.array([[float(x) for x in row] for row in rows])
+    # What is not determined is an empty cell.
+    return header, np.array([[float(x or "nan") for x in row] for row in rows])
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=_names)
@@ -89,10 +90,13 @@ def test_motions(path: Path, command: Command, tmp_path: Path) -> None:
     # Files for people take longer than the run.
     done = command.run("simulate", path, "--out", tmp_path / "run", "--json")
     assert done.returncode == 0, done.stderr
-    run = pfaff.Scene.from_file(path).simulate(choose="kept-rows")
+    scene = pfaff.Scene.from_file(path)
+    run, chosen = scene.simulate(), scene.simulate(choose="kept-rows")
+    assert chosen.reaction_columns == run.reaction_columns
     for file, columns, table in (
         ("trajectory.csv", run.columns, run.trajectory),
         ("reactions.csv", run.reaction_columns, run.reactions),
+        ("choice.csv", run.reaction_columns, chosen.reactions),
     ):
         if not (tmp_path / "run" / file).exists():
             continue
@@ -102,10 +106,18 @@ def test_motions(path: Path, command: Command, tmp_path: Path) -> None:
         own = table[:, [columns.index(column) for column in known]]
         np.testing.assert_array_equal(run.t, expected[:, 0])
         np.testing.assert_array_equal(own, expected[:, 1:])
+    # Where a number is determined, it is the same by every choice.
+    determined = np.isfinite(run.reactions)
+    np.testing.assert_array_equal(run.reactions[determined], chosen.reactions[determined])
+    has_choice = (tmp_path / "run" / "choice.csv").exists()
+    if (tmp_path / "run" / "reactions.csv").exists():
+        header, expected = _table(tmp_path / "run" / "reactions.csv")
+        assert has_choice == bool(np.isnan(expected).any())
 
 
-def test_summary(command: Command, tmp_path: Path) -> None:
-    path = ROOT / "examples" / "slider-crank.toml"
+@pytest.mark.parametrize("name", ["slider-crank", "sleigh"])
+def test_summary(name: str, command: Command, tmp_path: Path) -> None:
+    path = ROOT / "examples" / f"{name}.toml"
     expected = command.document("simulate", path, "--out", tmp_path / "run")
     scene = pfaff.Scene.from_file(path)
     run = scene.simulate()
@@ -114,8 +126,12 @@ def test_summary(command: Command, tmp_path: Path) -> None:
     written = scene.simulate_into(tmp_path / "own")
     for key in expected.keys() - {"wall_seconds"}:
         assert written[key] == expected[key], key
-    for file in ("trajectory.csv", "reactions.csv"):
-        assert (tmp_path / "own" / file).read_bytes() == (tmp_path / "run" / file).read_bytes()
+    tables = {file.name: file.read_bytes() for file in (tmp_path / "run").glob("*.csv")}
+    assert {"trajectory.csv", "reactions.csv"} <= set(tables)
+    assert ("choice.csv" in tables) == bool(expected["choice"]) == (name == "sleigh")
+    for file, content in tables.items():
+        assert (tmp_path / "own" / file).read_bytes() == content, file
+    assert {file.name for file in (tmp_path / "own").glob("*.csv")} == set(tables)
 
 
 def test_linearisation(command: Command) -> None:

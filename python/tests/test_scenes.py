@@ -49,6 +49,47 @@ def test_a_door_on_two_hinges() -> None:
     assert np.isfinite(analysis.reactions({"upper": 1e-6, "lower": 2e-6})["lower"]["Fy"])
 
 
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_directions_are_rows(path: Path) -> None:
+    """As many columns as the joint has components, in space six; also if there is no row."""
+    analysis = pfaff.Scene.from_file(path).analyze()
+    is_spatial = analysis.document["velocities"] == 6 * analysis.document["bodies"]
+    for verdict in analysis.verdicts.values():
+        directions, components = verdict.directions, verdict.components
+        if directions is None:
+            assert verdict.document["unique_directions"] is None
+            continue
+        columns = 6 if is_spatial else len(components)
+        assert directions.shape == (len(verdict.document["unique_directions"]), columns)
+        # Orthonormal; all of them where the whole reaction is unique.
+        np.testing.assert_allclose(directions @ directions.T, np.eye(len(directions)), atol=1e-9)
+        if verdict.unique:
+            assert len(directions) == len(components)
+
+
+def test_no_direction_is_unique() -> None:
+    left = pfaff.Scene.from_string(SLEIGH).analyze().verdicts["left"].directions
+    assert left is not None and left.shape == (0, 2)
+    table = pfaff.Scene.from_file(ROOT / "examples" / "table.toml").analyze()
+    leg = table.verdicts["A"].directions
+    assert leg is not None and leg.shape == (0, 6)
+
+
+def test_documents_are_copies() -> None:
+    scene = pfaff.Scene.from_string(SLEIGH)
+    analysis = scene.analyze()
+    left = analysis.verdicts["left"]
+    whole, own = analysis.document, left.document
+    whole["reactions"][0]["components"].clear()
+    whole["rank"] = 7
+    own["unique_directions"].append([1.0, 0.0])
+    own["components"][0]["verdict"] = "undecided"
+    assert analysis.document["rank"] == analysis.rank == 1
+    assert left.document == analysis.document["reactions"][0] == scene.analyze().document["reactions"][0]
+    assert left.document["components"] and left.document["unique_directions"] == []
+    assert left.components["Fx"].verdict != "undecided"
+
+
 def test_scenes_do_not_change() -> None:
     one = pfaff.Scene("one")
     two = one.body("a", mass=1.0, inertia=1.0)

@@ -9,6 +9,7 @@ use dynamics::code::SharedCode;
 use dynamics::{CodeMismatch, KeptRowMotion, Prepared, SceneCode, simulate};
 use linalg::KeptRowSaddle;
 use model::{Registry, System};
+use pfaff::solvability::Chosen;
 use pfaff::{AssembledScene, Overrides, Study};
 use scene::Template;
 use scene_codegen::{Choices, CodeError, NotAnInput, State, Subject, scene_tape, scene_text};
@@ -153,7 +154,8 @@ fn compare(what: &str, code: &dyn SceneCode, study: &Study) {
         }
     };
     let (mut a, mut expected) = (vec![0.0; n], vec![0.0; n]);
-    let (mut lambda, mut expected_lambda) = (vec![0.0; rows], vec![0.0; rows]);
+    let mut lambda = vec![0.0; rows];
+    let mut expected_lambda = Chosen::new(vec![0.0; rows], Vec::new());
     let (mut phi, mut residual) = (vec![0.0; layout.m], vec![0.0; rows]);
     let mut compared = 0;
     for State { t, q, v } in states(study) {
@@ -180,8 +182,9 @@ fn compare(what: &str, code: &dyn SceneCode, study: &Study) {
         motion
             .multipliers(t, &q, &v, &mut expected_lambda)
             .expect("solves");
-        let size = largest(&expected_lambda).max(largest(mechanism.mass()) * size);
-        apart(&lambda, &expected_lambda, size, "multipliers");
+        let expected_lambda = expected_lambda.as_chosen();
+        let size = largest(expected_lambda).max(largest(mechanism.mass()) * size);
+        apart(&lambda, expected_lambda, size, "multipliers");
 
         let rhs: Vec<f64> = (0..rows).map(|i| (1.0 + i as f64).sin()).collect();
         let dense = layout.dense(&s);

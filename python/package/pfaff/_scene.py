@@ -276,11 +276,12 @@ class Scene:
     ) -> Run:
         """Runs the scene; what is ``None`` is as the scene says.
 
-        ``reactions`` are all, none, or those with these names. Numbers that are not unique are NaN,
-        unless ``choose`` says by which choice they are made: ``"kept-rows"`` by the rows that the
-        run keeps, or a list of rows to drop, from 1. ``on_event`` gets each :class:`Event` at the
-        first row after it, ``on_row`` the time of each row; the run ends where one of them returns
-        ``True``. Ctrl-C is heard on the main thread.
+        ``reactions`` are all, none, or those with these names. Numbers that are not unique on
+        their stretch of the run are NaN, unless ``choose`` says by which choice they are made:
+        ``"kept-rows"`` by the rows that the run keeps, or a list of rows to drop, from 1.
+        ``on_event`` gets each :class:`Event` at the first row after it, ``on_row`` the time of
+        each row; the run ends where one of them returns ``True``. Ctrl-C is heard on the main
+        thread.
 
         ``drives`` are functions ``f(t, measure, rate)`` in place of the laws of these drives: they
         return the force (N) or torque (N·m). ``forces`` are functions ``f(t, body)`` of a
