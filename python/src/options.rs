@@ -62,6 +62,7 @@ impl RunOptions {
             rows: Rows::Every,
             accelerations: false,
             reactions,
+            ..Wanted::default()
         }
     }
 

@@ -11,7 +11,7 @@ mod split;
 #[cfg(test)]
 mod tests;
 
-use model::System;
+use model::{ConstraintId, System};
 
 use crate::choose;
 use crate::code::NoCode;
@@ -133,7 +133,7 @@ impl<'a> Plan<'a> {
         wanted: &Wanted,
     ) -> Result<Self, MotionError> {
         options.check()?;
-        let groups = wanted_groups(prepared, &wanted.reactions)?;
+        let groups = wanted_groups(prepared, wanted)?;
         let code = code(prepared, options)?;
         let (apart, parts) = if code.value {
             split::stays("the generated code has all bodies".to_owned())
@@ -197,17 +197,22 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Whether the reaction of each joint and drive is requested.
-fn wanted_groups(prepared: &Prepared, reactions: &Reactions) -> Result<Vec<bool>, MotionError> {
+/// Whether the reaction of each joint and drive is requested, by itself or as a part of a group.
+fn wanted_groups(prepared: &Prepared, wanted: &Wanted) -> Result<Vec<bool>, MotionError> {
     let groups = &prepared.mechanism.layout().groups;
-    let names = match reactions {
+    let names = match &wanted.reactions {
         Reactions::All => return Ok(vec![true; groups.len()]),
         Reactions::None => return Ok(vec![false; groups.len()]),
         Reactions::Of(names) => names,
     };
     match names.iter().find(|n| groups.iter().all(|g| g.name != **n)) {
         Some(name) => Err(MotionError::NoReaction { name: name.clone() }),
-        None => Ok(groups.iter().map(|g| names.contains(&g.name)).collect()),
+        None => {
+            let is_named = |k: usize| names.contains(&groups[k].name);
+            let is_member = |k: usize| wanted.groups.iter().any(|g| g.has(ConstraintId(k)));
+            let ids = 0..groups.len();
+            Ok(ids.map(|k| is_named(k) || is_member(k)).collect())
+        }
     }
 }
 

@@ -341,6 +341,7 @@ impl KeptRows {
         if self.dropped.len() <= CARRIED_VECTORS {
             for (k, z) in z.iter_mut().enumerate() {
                 self.dependency(at, self.dropped[k], z)?;
+                self.refine(at, z)?;
             }
             return Ok(());
         }
@@ -352,6 +353,25 @@ impl KeptRows {
             for (&i, coefficient) in self.kept.iter().zip(&self.lambda) {
                 z[i] = -coefficient;
             }
+            self.refine(at, z)?;
+        }
+        Ok(())
+    }
+
+    /// Corrects a dependency once by what is left of `Cᵀ·z`.
+    fn refine(&mut self, at: &Evaluation<'_>, z: &mut [f64]) -> Result<(), MotionFault> {
+        let scaled = &mut self.scaled;
+        scaled.motion.fill(0.0);
+        scaled.force.fill(0.0);
+        for (i, z) in z.iter().enumerate().filter(|(_, z)| **z != 0.0) {
+            for (j, c) in at.mechanism.layout().row(&at.s, i) {
+                scaled.force[j] += z * c * scaled.units[j];
+            }
+        }
+        self.solve_for_multipliers()
+            .map_err(|e| self.fault(at, e))?;
+        for (&i, correction) in self.kept.iter().zip(&self.lambda) {
+            z[i] -= correction;
         }
         Ok(())
     }

@@ -76,6 +76,12 @@ impl Group {
         (!share.is_empty()).then_some(share)
     }
 
+    /// Whether a joint or drive takes part in it by its name.
+    #[must_use]
+    pub fn has(&self, id: ConstraintId) -> bool {
+        self.share(|own| (own == id).then_some(own)).is_some()
+    }
+
     fn is_empty(&self) -> bool {
         match self {
             Self::Members(all) | Self::OneJoint(all) => all.is_empty(),

@@ -44,7 +44,17 @@ struct OpenPart<'m> {
     redundancy: usize,
     /// Accuracy of vectors of its left null space, from the last full decision for the accuracy
     /// of the motion.
-    known: Option<matrices::Known>,
+    known: Option<Accuracy>,
+}
+
+/// Accuracy of vectors of a left null space.
+struct Accuracy {
+    known: matrices::Known,
+    /// The smallest singular value of the equilibrated rows.
+    sigma: f64,
+    /// Factors of the columns of the mechanism in the equilibrated rows; zero for columns of other
+    /// parts.
+    columns: Vec<f64>,
 }
 
 /// A state of the motion, and vectors of the left null space of C there.
@@ -238,10 +248,9 @@ impl OpenPart<'_> {
         forms: &[LinearForm],
     ) -> Result<Verdicts, AnalysisError> {
         let of_motion = known != Known::AsStored;
-        if of_motion && let Some(known) = self.known.take() {
-            let basis = self.carried_basis(at, known);
+        if of_motion && let Some(accuracy) = &self.known {
+            let basis = self.carried_basis(whole, at, accuracy);
             let found = self.judged(whole, at, forms, &|_| Cow::Borrowed(&basis));
-            self.known = Some(basis.known);
             let found = found.map_err(|source| AnalysisError::Query { time: at.t, source })?;
             if found.iter().all(Verdict::is_decided) {
                 return Ok(found.into_iter().map(Some).collect());
@@ -269,7 +278,19 @@ impl OpenPart<'_> {
             let solvability = Solvability::from_decision(&rows.matrix(), decision);
             let basis = solvability.basis();
             let found = self.judged(whole, at, forms, &|_| Cow::Borrowed(basis));
-            let accuracy = is_of_motion.then(|| basis.known.clone());
+            let (scaling, sigma) = {
+                let decision = solvability.decision();
+                (&decision.scaling, decision.evidence.sigma_r)
+            };
+            let accuracy = is_of_motion.then(|| {
+                self.accuracy(
+                    whole,
+                    rows.size(),
+                    basis.known.clone(),
+                    &scaling.cols,
+                    sigma,
+                )
+            });
             (found.map_err(query)?, accuracy)
         } else {
             let s = evaluated(&self.mechanism, at.t, &q);
@@ -278,7 +299,10 @@ impl OpenPart<'_> {
                 decided.found.is_decided() && decided.found.redundancy == self.redundancy;
             let found = self.judged(whole, at, forms, &|rows| Cow::Owned(decided.basis(rows)));
             let all: Vec<usize> = (0..self.rows.len()).collect();
-            let accuracy = is_of_motion.then(|| decided.known(&all, 0));
+            let size = model::start::scene_size(&self.mechanism, &q);
+            let (scaling, sigma) = (&decided.found.scaling, decided.found.evidence.sigma_r);
+            let accuracy = is_of_motion
+                .then(|| self.accuracy(whole, size, decided.known(&all, 0), &scaling.cols, sigma));
             (found.map_err(query)?, accuracy)
         };
         let is_of_motion = accuracy.is_some();
@@ -292,13 +316,48 @@ impl OpenPart<'_> {
         })
     }
 
+    /// The accuracy by a decision whose columns have these exponents of two.
+    fn accuracy(
+        &self,
+        whole: &Mechanism,
+        size: f64,
+        known: matrices::Known,
+        exponents: &[i32],
+        sigma: f64,
+    ) -> Accuracy {
+        let dimensions = self.mechanism.layout().dimension_scaling(size).cols;
+        let own = dimensions.iter().zip(exponents);
+        let own: Vec<f64> = own.map(|(a, b)| f64::from(a + b).exp2()).collect();
+        Accuracy {
+            columns: self
+                .extent
+                .put_velocities(&own, vec![0.0; whole.layout().n_v]),
+            known,
+            sigma,
+        }
+    }
+
     /// The vectors of the left null space that the motion has, orthonormal in equilibrated rows,
-    /// with the accuracy of the last full decision.
-    fn carried_basis(&self, at: &CarriedState<'_>, known: matrices::Known) -> Basis {
+    /// with the accuracy of the last full decision, or as accurate as `Cᵀ·z = 0` holds.
+    fn carried_basis(
+        &self,
+        whole: &Mechanism,
+        at: &CarriedState<'_>,
+        accuracy: &Accuracy,
+    ) -> Basis {
+        let mut known = accuracy.known.clone();
         let (m, count) = (self.rows.len(), at.dependencies.len());
         let scaled = Matrix::from_fn(m, count, |i, j| {
             at.dependencies[j][self.rows[i]] / known.row_factor[i]
         });
+        let missed = (0..count).map(|j| {
+            let size = (0..m).map(|i| scaled[(i, j)]).fold(0.0, f64::hypot);
+            self.missed(whole, at, j, &accuracy.columns) / size
+        });
+        let off = missed.fold(0.0, f64::max) / accuracy.sigma.min(1.0);
+        for noise in &mut known.row_noise {
+            *noise = noise.max(rank::NOISE_FACTOR * off);
+        }
         let columns = count.min(self.redundancy);
         let z = PivotedQr::of_columns(&scaled).q_columns(0..columns);
         // Of many dependencies some combinations are there, each with its share of their size.
@@ -314,6 +373,20 @@ impl OpenPart<'_> {
             known,
             exact: None,
         }
+    }
+
+    /// ‖Cᵀ·z‖ of a dependency in the rows of the part, equilibrated.
+    fn missed(&self, whole: &Mechanism, at: &CarriedState<'_>, j: usize, factors: &[f64]) -> f64 {
+        let layout = whole.layout();
+        let mut sums = vec![0.0; layout.n_v];
+        for &row in &self.rows {
+            let z = at.dependencies[j][row];
+            for (column, c) in layout.row(at.scratch, row) {
+                sums[column] += z * c;
+            }
+        }
+        let sums = sums.iter().zip(factors).map(|(sum, factor)| sum * factor);
+        sums.fold(0.0, f64::hypot)
     }
 
     /// The verdicts on all numbers of the part, with a basis for rows of the part. A basis of all
