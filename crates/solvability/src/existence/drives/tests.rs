@@ -7,7 +7,9 @@ use joints::{
     Direction, Revolute, RevoluteAngleDrive, Translational, TranslationalDisplacementDrive,
 };
 use model::start::assemble;
-use model::{Body, BodyRef, Description, Function, Mechanism, StartOptions, Tolerance};
+use model::{
+    Body, BodyRef, ConstraintLevel, Description, Function, Mechanism, StartOptions, Tolerance,
+};
 
 use super::*;
 
@@ -60,7 +62,7 @@ fn assembled(d: &Description) -> (Mechanism, Vec<f64>) {
 /// The configuration to which the independent drives lead.
 fn followed_drives(mechanism: &Mechanism, q: &[f64], t: f64) -> Option<Vec<f64>> {
     let mut last = None;
-    let seen = walk(mechanism, q, t, |time, q| {
+    let seen = walk(mechanism, q, t, None, |time, q| {
         last = Some((time, q.to_vec()));
         Ok(true)
     });
