@@ -1,6 +1,6 @@
-//! When redundant rows agree. Guides that are parallel on paper are parallel to the rounding of their
-//! data: what they miss by is no contradiction, at any place, turn and speed. What differs by more
-//! than data are known to is one, however small.
+//! When redundant rows agree. Guides that are parallel on paper are parallel to the rounding of
+//! their data: what they miss by is no contradiction, at any place, turn and speed. What differs by
+//! more than data are known to is one, however small.
 //!
 //! The numbers are those of Newton's second law for one body on one straight guide.
 

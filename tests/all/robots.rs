@@ -231,7 +231,7 @@ fn robot(k: u64, world: World) -> Robot {
     let base = [n.within(-0.1, 0.1), 0.0, n.within(0.8, 1.0)];
     robot.body("base", base, (6.6, 0.05), [-0.02, 0.0, 0.0]);
     // One in two is bolted to the ground.
-    if k % 2 == 0 {
+    if k.is_multiple_of(2) {
         robot.joint("bolt", "fixed", ["ground", "base"], base, &[]);
     }
     for leg in 0..1 + k % 2 {
@@ -301,7 +301,7 @@ fn robots_move_wherever_they_stand_and_whichever_way_they_are_turned() {
                 match rank(&robot) {
                     Ok([rank, rows]) if rank + robot.redundant == rows => {}
                     other => {
-                        refused.push(format!("robot {k}, place {place}, turn {turn}: {other:?}"))
+                        refused.push(format!("robot {k}, place {place}, turn {turn}: {other:?}"));
                     }
                 }
             }

@@ -101,8 +101,8 @@ impl Prepared {
         Ok(Some(dropped))
     }
 
-    /// The same mechanism with these rows dropped. Returns `None` if they cannot be dropped together,
-    /// or for a component of another mechanism.
+    /// The same mechanism with these rows dropped. Returns `None` if they cannot be dropped
+    /// together, or for a component of another mechanism.
     ///
     /// # Errors
     /// As [`prepare`].

@@ -1,13 +1,14 @@
 //! When rows are violated: one measure for positions, velocities and accelerations.
 //!
 //! Let z combine rows to zero, `zᵀ·C = 0`: one dropped row and the kept rows that imply it. For the
-//! intended mechanism the sum of their residuals `zᵀ·Φ`, `zᵀ·(C·v − b)`, `zᵀ·(C·a − Γ)` is zero. The
-//! sum of a mechanism as stored is known to the rounding of the terms that are added in these rows,
-//! whichever way the axes point ([`Scales::terms`]), and to what data within a stated tolerance
-//! change ([`crate::explained`]). What is more than that is a violation.
+//! intended mechanism the sum of their residuals `zᵀ·Φ`, `zᵀ·(C·v − b)`, `zᵀ·(C·a − Γ)` is zero.
+//! The sum of a mechanism as stored is known to the rounding of the terms that are added in these
+//! rows, whichever way the axes point ([`Scales::terms`]), and to what data within a stated
+//! tolerance change ([`crate::explained`]). What is more than that is a violation.
 //!
 //! Terms are never those that happen to be present: a body that moves along a row has no velocity
-//! across it, but the direction of the row is known to a rounding, and so is the velocity across it.
+//! across it, but the direction of the row is known to a rounding, and so is the velocity across
+//! it.
 
 use crate::data::{Data, DataBlock, explained};
 use crate::mechanism::Mechanism;
@@ -145,9 +146,9 @@ impl Scales<'_> {
     /// c_ij are the bounds of [`Scales::entry_bounds`], coordinates count at least as in
     /// [`Scales::position`], ω and α are the fastest rate and the largest acceleration of the
     /// mechanism, ω_i is the fastest rate of the bodies of the row, and l_j is the size of the
-    /// mechanism for translations and 1 for rotations. All velocities are computed together, so each
-    /// is known to the rounding of the fastest. Needs C at the pose of
-    /// the scratch; b for velocities, Γ for accelerations.
+    /// mechanism for translations and 1 for rotations. All velocities are computed together, so
+    /// each is known to the rounding of the fastest. Needs C at the pose of the scratch; b for
+    /// velocities, Γ for accelerations.
     #[must_use]
     pub fn terms(self, i: usize, level: &Level<'_>) -> f64 {
         let given = match level.of {
@@ -203,9 +204,9 @@ impl Scales<'_> {
 impl Data<'_> {
     /// What data within their stated tolerances explain of the sum of the residuals of rows with
     /// weights z (m + h) at a level: [`explained`] of its gradient, which is written to `gradient`
-    /// ([`Data::count`] values). Zero if no tolerance is stated; infinite for accelerations that are
-    /// not known. `blocks` are those of [`Data::blocks`]. Needs the poses of the scratch, and for
-    /// accelerations the twist.
+    /// ([`Data::count`] values). Zero if no tolerance is stated; infinite for accelerations that
+    /// are not known. `blocks` are those of [`Data::blocks`]. Needs the poses of the scratch, and
+    /// for accelerations the twist.
     #[must_use]
     pub fn explained(
         self,

@@ -266,8 +266,8 @@ impl Mechanism {
         self.reach[body]
     }
 
-    /// Whether a length in a body (m), such as the distance of a joint from its centre, is more than
-    /// the rounding of its longest arm.
+    /// Whether a length in a body (m), such as the distance of a joint from its centre, is more
+    /// than the rounding of its longest arm.
     #[must_use]
     pub fn is_length(&self, body: usize, length: f64) -> bool {
         are_apart(length, self.reach(body))

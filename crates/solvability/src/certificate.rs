@@ -255,9 +255,9 @@ fn with_nearness(mut decision: RankDecision, nearness: Option<Nearness>) -> Rank
     decision
 }
 
-/// The combination of kept rows that comes closest to zero at the pose of the scratch, if it does so
-/// to less than `limit`, with each row scaled to largest entry 1. `c` is C without dimensions for a
-/// mechanism of this size.
+/// The combination of kept rows that comes closest to zero at the pose of the scratch, if it does
+/// so to less than `limit`, with each row scaled to largest entry 1. `c` is C without dimensions
+/// for a mechanism of this size.
 ///
 /// The rotations of a body have two natural units: the arm of the body, and the size of the
 /// mechanism. Each makes rows parallel that are not: the size, those of a small part of a large
@@ -298,11 +298,11 @@ fn weakest_kept(c: &Matrix, decision: &RankDecision) -> Option<WeakestCombinatio
 }
 
 /// Returns the combination of kept rows that cannot be distinguished from a dependence in `f64` at
-/// the pose of the scratch, with rotations measured by the arms of the bodies and by the size of the
-/// mechanism; C must have been evaluated at coordinates q. The rank may be decided nevertheless,
-/// because equilibration scales up a column whose only entries are the misalignment. The misalignment is part of the data as
-/// read, but velocities along these rows are accurate only to the rounding of the state divided by
-/// σ. Allocates.
+/// the pose of the scratch, with rotations measured by the arms of the bodies and by the size of
+/// the mechanism; C must have been evaluated at coordinates q. The rank may be decided
+/// nevertheless, because equilibration scales up a column whose only entries are the misalignment.
+/// The misalignment is part of the data as read, but velocities along these rows are accurate only
+/// to the rounding of the state divided by σ. Allocates.
 #[must_use]
 pub fn inseparable(
     mechanism: &Mechanism,

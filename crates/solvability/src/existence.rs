@@ -175,10 +175,11 @@ pub struct Ranks<'a> {
 /// and `C_K·v = b_K` to rounding.
 ///
 /// The sum over a circuit is compared with the size of the terms that are added in its rows
-/// ([`model::Scales::terms`]), times the noise of the coefficients, [`rank::support_tolerance`]: near
-/// a singular configuration the coefficients that express dropped rows by kept rows have errors of
-/// 1/σ_r roundings, and the agreement cannot be better than that. Only rows that are coupled with
-/// those of the circuit count, so that large terms elsewhere do not hide a contradiction.
+/// ([`model::Scales::terms`]), times the noise of the coefficients, [`rank::support_tolerance`]:
+/// near a singular configuration the coefficients that express dropped rows by kept rows have
+/// errors of 1/σ_r roundings, and the agreement cannot be better than that. Only rows that are
+/// coupled with those of the circuit count, so that large terms elsewhere do not hide a
+/// contradiction.
 ///
 /// # Errors
 /// If the state has the wrong number of values, or one of them is not finite.

@@ -121,8 +121,9 @@ pub(super) fn run_component(
     Err(Box::new(Failure { error, summary }))
 }
 
-/// Within a stated tolerance data explain what joints miss where drives move them, so that no dropped
-/// row shows during the run that a drive prescribes what joints forbid: it does not begin then.
+/// Within a stated tolerance data explain what joints miss where drives move them, so that no
+/// dropped row shows during the run that a drive prescribes what joints forbid: it does not begin
+/// then.
 fn drives_agree(prepared: &Prepared, t_end: f64) -> Result<(), MotionError> {
     if !prepared.may_miss {
         return Ok(());

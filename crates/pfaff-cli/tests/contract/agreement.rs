@@ -1,5 +1,5 @@
-//! One decision in `check`, `analyze` and `simulate` of whether redundant rows agree: the exit codes
-//! are the same, and where one warns the other does not go on.
+//! One decision in `check`, `analyze` and `simulate` of whether redundant rows agree: the exit
+//! codes are the same, and where one warns the other does not go on.
 
 use super::{Folder, stderr, stdout, with_scene};
 
@@ -91,8 +91,8 @@ ratio = 1.0
 t_end = 0.05
 "#;
 
-/// A slider that two gear meshes and an edge hold, within a tolerance larger than itself, and that a
-/// drive moves.
+/// A slider that two gear meshes and an edge hold, within a tolerance larger than itself, and that
+/// a drive moves.
 const HELD_SLIDER: &str = r#"
 [scene]
 name = "held slider"

@@ -75,8 +75,8 @@ impl RowTerms {
         }
     }
 
-    /// Those of a mechanism of this size (m) at velocities v (n_v). Needs C and Γ at the state of the
-    /// scratch.
+    /// Those of a mechanism of this size (m) at velocities v (n_v). Needs C and Γ at the state of
+    /// the scratch.
     #[must_use]
     pub fn of(mechanism: &Mechanism, s: &Scratch, v: &[f64], size: f64) -> Self {
         let scales = mechanism.scales(s);
@@ -220,8 +220,8 @@ impl Equations {
         Ok((solution, saddle))
     }
 
-    /// Like [`Equations::solution`]; `explained` returns what data within a stated tolerance explain
-    /// of a combination of rows at accelerations.
+    /// Like [`Equations::solution`]; `explained` returns what data within a stated tolerance
+    /// explain of a combination of rows at accelerations.
     fn solution_within(
         &self,
         rows: &RowDecision,
@@ -242,8 +242,8 @@ impl Equations {
         Ok(solution)
     }
 
-    /// The combination of rows in which the kept rows cancel the dropped row i, m + h: as a force, it
-    /// moves nothing.
+    /// The combination of rows in which the kept rows cancel the dropped row i, m + h: as a force,
+    /// it moves nothing.
     fn dependency(
         &self,
         rows: &RowDecision,
