@@ -630,15 +630,17 @@ impl Study {
         let goes_on = |_| ControlFlow::Continue(());
         let sinks: &mut [&mut dyn RowSink] = &mut [&mut path, &mut caller];
         let ended = run_into(&plan, (&goes_on, stop), &mut |_| goes_on(0.0), sinks)?;
+        let columns = begun.columns(&Selection::All)?;
         let written = Written {
             spread: path.spread_of(&plan, &ended, stop),
             rows,
+            columns: &columns,
             ..Written::default()
         };
         Ok(EndedRun {
             document: begun.document(&plan, &ended, written),
             verdicts: begun.start.analysis.reactions.clone(),
-            columns: begun.columns(&Selection::All)?,
+            columns,
             stretches: ended.summary.verdicts,
             stopped: ended.error,
         })

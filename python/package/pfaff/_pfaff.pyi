@@ -136,9 +136,10 @@ class Scene:
         """
     def simulate(self, /, options: Incomplete, numbers_of_choice: bool, on_event: Any | None, on_row: Any | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> Run:
         """
-        Runs the scene. With `numbers_of_choice` reactions that are not unique have the numbers of
-        the rows that the run keeps, otherwise NaN. `drives` are functions of time, measure and rate
-        in place of laws, `forces` functions of the states of bodies, each with its name.
+        Runs the scene. With `numbers_of_choice` numbers that are not determined on their stretch of
+        the run are those of the rows that the run keeps, otherwise NaN. `drives` are functions of
+        time, measure and rate in place of laws, `forces` functions of the states of bodies, each
+        with its name.
         """
     def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete, until: SupportsFloat | SupportsIndex | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> str:
         """

@@ -141,11 +141,29 @@ fn simulate_writes_the_files_of_the_contract() {
     assert!(summary["max_position_residual"].as_f64().expect("a number") <= 1e-12);
     assert!(summary["energy_balance"].as_f64().expect("a number") <= 1e-7);
     assert_eq!(summary["reactions"]["A"]["verdict"], "unique");
-    assert!(summary["reactions"]["A"].get("choice").is_none());
-    assert_eq!(
-        summary["reactions"]["B"]["choice"]["deleted_rows"],
-        serde_json::json!([20, 21])
-    );
+    let choice = &summary["choice"][0];
+    assert_eq!(choice["deleted_rows"], serde_json::json!([20, 21]));
+    // Up to 1 s the edges lie along x, and so do the components that are determined; the table has
+    // these numbers and no others, the choice has all.
+    let b = &summary["reactions"]["B"];
+    assert_eq!(b["verdict"], "not_unique");
+    let along = &b["components"]["Fx"];
+    assert_eq!(along["verdict"], "not_unique");
+    assert_eq!(along["determined"], serde_json::json!([[0.0, 1.0]]));
+    assert!(b["components"]["Fy"].get("determined").is_none());
+    let [determined, all] = ["reactions.csv", "choice.csv"].map(|file| folder.read(file));
+    let columns: Vec<&str> = all.lines().next().expect("a header").split(',').collect();
+    assert_eq!(determined.lines().next(), all.lines().next());
+    let place = |name: &str| columns.iter().position(|c| *c == name).expect("a column");
+    for (determined, all) in determined.lines().zip(all.lines()).skip(1) {
+        let cells = [determined, all].map(|line| line.split(',').collect::<Vec<_>>());
+        let t: f64 = cells[0][0].parse().expect("a time");
+        let open = ["B.Fy", "W1.N", "W4.Fy"].map(|name| place(name));
+        assert!(open.iter().all(|&k| cells[0][k].is_empty()), "{determined}");
+        assert_eq!(cells[0][place("B.Fx")].is_empty(), t >= 1.0, "{determined}");
+        assert_eq!(cells[0][place("A.Fx")], cells[1][place("A.Fx")]);
+        assert!(cells[1].iter().all(|cell| !cell.is_empty()), "{all}");
+    }
 }
 
 /// The run names the choice of the reactions that the model does not determine.
@@ -159,9 +177,10 @@ fn the_run_names_its_choice() {
     assert!(text.contains("(kept-rows, projection)"), "{text}");
     assert!(text.contains("kept-rows, rows 20, 21 deleted"), "{text}");
     let summary = json(&folder.read("summary.json"));
-    let choice = &summary["reactions"]["B"]["choice"];
+    let choice = &summary["choice"][0];
     assert_eq!(summary["formulation"], "kept-rows");
-    assert_eq!(choice["method"], "kept-rows");
+    assert_eq!(choice["name"], "kept-rows");
+    assert_eq!((&choice["from"], &choice["to"]), (&0.0.into(), &2.0.into()));
     assert!(choice.get("deleted_rows").is_some(), "{choice}");
 }
 

@@ -101,7 +101,7 @@ fn every_example_has_its_code() {
         // The same code in the document.
         let output = run(&format!("{arguments} --json"), scene);
         let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        assert_eq!(document["format"], 1, "{document:#}");
+        assert_eq!(document["format"], 2, "{document:#}");
         let codes = document["problems"].as_array().expect("a list").iter();
         let mut codes = codes.map(|p| &p["code"]).chain([&document["code"]]);
         let code = entry.code.to_string();

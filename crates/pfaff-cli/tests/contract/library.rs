@@ -72,7 +72,7 @@ fn the_summary_of_a_run_is_the_one_of_the_command() {
         value["wall_seconds"] = 0.into();
         // The head belongs to documents, of which the summary may be a part.
         let object = value.as_object_mut().expect("an object");
-        assert_eq!(object.remove("format"), Some(1.into()));
+        assert_eq!(object.remove("format"), Some(2.into()));
         assert_eq!(
             object.remove("version"),
             Some(env!("CARGO_PKG_VERSION").into())

@@ -191,7 +191,7 @@ fn faults_of(folder: &Folder, arguments: &str, input: &[u8], code: &str) -> Opti
     let error = document["error"].as_str().unwrap_or_default();
     let is_refusal = json.status.code() == Some(2)
         && json.stderr.is_empty()
-        && document["format"] == 1
+        && document["format"] == 2
         && document["version"] == env!("CARGO_PKG_VERSION")
         && document["ok"] == false
         && document["code"] == code

@@ -109,7 +109,8 @@ fn reactions_that_are_not_unique_come_with_several_choices() {
     let (place, b) = joint(&data, "B");
     let at = compared.iter().position(|k| *k == place as u64);
     let at = at.expect("B is compared");
-    assert_eq!(b["components"][0]["verdict"], "unique");
+    assert_eq!(b["components"][0]["verdict"], "not_unique");
+    assert_eq!(b["components"][0]["determined"], serde_json::json!([[0.0, 1.0]]));
     let free = &comparison["freedom"][at]["components"];
     assert_eq!(*free, serde_json::json!([true, true, false]));
     // An edge has a force along its normal only, which turns with its body: the other direction
@@ -338,7 +339,7 @@ simulate = { t_end = 0.1 }
         (v[0] - v[2]).abs() < 1e-9 && v[1].abs() < 1e-9 && v[2].abs() > 0.5,
         "{v:?}"
     );
-    // What is not unique stands beside its choice.
+    // What is not determined has no peak.
     let peaks = page
         .split_once("<h3>Peaks</h3>")
         .expect("a table of peaks")
@@ -354,5 +355,7 @@ simulate = { t_end = 0.1 }
             .0
     };
     assert!(row("pivot").contains("every choice: it is unique"));
-    assert!(row("left").contains("deleted"), "{}", row("left"));
+    let left = row("left");
+    assert!(left.contains("the rest is not determined"), "{left}");
+    assert!(!left.contains("deleted"), "{left}");
 }

@@ -102,7 +102,7 @@ fn files_are_the_same_for_a_seed_on_any_number_of_threads() {
     let d: Value = serde_json::from_str(&one[1]).expect("JSON");
     assert_eq!(
         (&d["format"], &d["samples"], &d["assembled"]),
-        (&1.into(), &60.into(), &60.into())
+        (&2.into(), &60.into(), &60.into())
     );
     let column = head
         .iter()

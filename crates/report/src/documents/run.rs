@@ -248,10 +248,7 @@ impl RunDocument {
         });
         let reactions = Named(reactions.collect());
         let groups = verdicts.map_or_else(|| Named(Vec::new()), RunVerdicts::groups);
-        let is_open =
-            |r: &RunReactionDocument| r.of_run.as_ref().is_some_and(|v| v.verdict != "unique");
-        let has_choice = reactions.0.iter().any(|(_, r)| is_open(r))
-            || groups.0.iter().any(|(_, g)| g.of_run.verdict != "unique");
+        let has_choice = verdicts.is_some_and(RunVerdicts::has_choice);
         Self {
             method: run.summary.method.name(),
             formulation: FORMULATION,

@@ -134,7 +134,7 @@ fn json(document: &impl serde::Serialize) -> String {
     let text = String::from_utf8(bytes).expect("JSON is UTF-8");
     // Every document has this head; what follows is compared.
     let head = concat!(
-        "{\n  \"format\": 1,\n  \"version\": \"",
+        "{\n  \"format\": 2,\n  \"version\": \"",
         env!("CARGO_PKG_VERSION"),
         "\",\n"
     );
@@ -393,8 +393,7 @@ fn summary_has_the_keys_of_the_contract() {
     stretches.reactions[1].components[1].1 =
         VerdictTrack::of([stretch(0.0, 2.0, Verdict::NotUnique)]);
     stretches.sum_up(&[]);
-    let names = Selection::Names(vec!["upper".into()]);
-    let columns = columns_of_reactions(&prepared.mechanism, &names, &[], |_, _| false);
+    let columns = columns_of_reactions(&prepared.mechanism, &Selection::All, &[], |_, _| false);
     let columns = columns.expect("it exists");
     let peak = Peak {
         value: -3.5,
@@ -406,7 +405,7 @@ fn summary_has_the_keys_of_the_contract() {
             stretches: &stretches,
             groups: &[],
             columns: &columns,
-            peaks: &[None, Some(peak), None],
+            peaks: &[None, Some(peak), None, None, None, None],
         }),
         rows: 3,
         files: &["trajectory.csv", "summary.json"],
@@ -477,6 +476,8 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     let error = MotionError::from(DropError::NotRedundant);
     let sensitivities = Sensitivities::default();
     let stretches = Stretches::unique(&prepared.mechanism, [0.0, 1.5], &[]);
+    let columns = columns_of_reactions(&prepared.mechanism, &Selection::All, &[], |_, _| false);
+    let columns = columns.expect("all of them");
     let run = |ending, stretches| Run {
         rows: 3,
         files: &["trajectory.csv", "summary.json"],
@@ -488,7 +489,7 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
         verdicts: Some(RunVerdicts {
             stretches,
             groups: &[],
-            columns: &[],
+            columns: &columns,
             peaks: &[],
         }),
         summary: &summary,
@@ -503,7 +504,7 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     // Where everything is determined there is no choice.
     assert_eq!(document.choice, []);
     let mut partly = stretches.clone();
-    partly.reactions[0].whole = VerdictTrack::constant([0.0, 1.5], Verdict::NotUnique);
+    partly.reactions[0].components[0].1 = VerdictTrack::constant([0.0, 1.5], Verdict::NotUnique);
     let open = RunDocument::new(&run(Ending::Interrupted, &partly));
     assert!(open.partial && open.error.is_none());
     let choices = open.choice.iter();

@@ -178,6 +178,13 @@ impl RunVerdicts<'_> {
         Named(own.collect())
     }
 
+    /// Whether a column of its table has a number that is not determined.
+    pub(super) fn has_choice(&self) -> bool {
+        let tracks = self.columns.iter();
+        let mut tracks = tracks.filter_map(|c| c.quantity.verdicts(self.stretches));
+        tracks.any(|track| !track.of_run().is_unique())
+    }
+
     /// The groups by name.
     pub(super) fn groups(&self) -> Named<RunGroupDocument> {
         let all = self.groups.iter().zip(&self.stretches.groups).enumerate();
