@@ -21,8 +21,8 @@ use report::documents::{
     DataDocument, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument,
 };
 use report::{
-    AnalysisDocument, Origin, OutputDirectory, Peak, ReactionColumn, Run, RunDocument, Selection,
-    TableError, TrajectoryTable, columns_of_reactions, write_json,
+    AnalysisDocument, Origin, OutputDirectory, Peak, PeakRecorder, ReactionColumn, Run,
+    RunDocument, Selection, TableError, TrajectoryTable, columns_of_reactions, write_json,
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{
@@ -619,22 +619,34 @@ impl Study {
         let (mut path, mut rows) = (Path::new(&self.prepared), 0);
         let (mechanism, q) = (&self.prepared.mechanism, &self.prepared.q);
         let mut groups = GroupNumbers::new(mechanism, q, &plan.groups);
+        let (columns, space) = (begun.columns(&Selection::All)?, mechanism.space());
+        let mut peaks = PeakRecorder::new(columns.len(), &mechanism.layout().break_times);
         let mut caller = Calling(|sample: &mut Sample<'_, '_>| {
             let numbers = ChosenNumbers {
                 reactions: sample.reactions()?,
                 groups: group_numbers(&mut groups, sample)?,
             };
+            let cuts = sample.events.iter().filter(|event| event.kind.cuts());
+            cuts.for_each(|event| peaks.cut(event.time));
+            let own = numbers.reactions.as_chosen().iter();
+            let own = own.flat_map(|r| r.components(space).into_iter().chain(r.component));
+            let values: Vec<f64> = own
+                .chain(numbers.groups.as_chosen().iter().copied())
+                .collect();
+            peaks.row(sample.t, &values);
             rows += 1;
             Ok(row(sample, &numbers))
         });
         let goes_on = |_| ControlFlow::Continue(());
         let sinks: &mut [&mut dyn RowSink] = &mut [&mut path, &mut caller];
         let ended = run_into(&plan, (&goes_on, stop), &mut |_| goes_on(0.0), sinks)?;
-        let columns = begun.columns(&Selection::All)?;
+        let found = ended.summary.verdicts.as_ref();
+        let peaks = found.map_or_else(Vec::new, |found| peaks.finish(&columns, found));
         let written = Written {
             spread: path.spread_of(&plan, &ended, stop),
             rows,
             columns: &columns,
+            peaks: &peaks,
             ..Written::default()
         };
         Ok(EndedRun {

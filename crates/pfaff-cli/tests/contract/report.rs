@@ -110,7 +110,10 @@ fn reactions_that_are_not_unique_come_with_several_choices() {
     let at = compared.iter().position(|k| *k == place as u64);
     let at = at.expect("B is compared");
     assert_eq!(b["components"][0]["verdict"], "not_unique");
-    assert_eq!(b["components"][0]["determined"], serde_json::json!([[0.0, 1.0]]));
+    assert_eq!(
+        b["components"][0]["determined"],
+        serde_json::json!([[0.0, 1.0]])
+    );
     let free = &comparison["freedom"][at]["components"];
     assert_eq!(*free, serde_json::json!([true, true, false]));
     // An edge has a force along its normal only, which turns with its body: the other direction

@@ -245,6 +245,14 @@ fn exact_cranks_lock_in_every_sample_and_their_misfit_has_a_bound() {
     assert!(misfit.mean < misfit.greatest && misfit.mean > 0.1 * tolerance);
     let third = reaction(d, "P3");
     assert_eq!((third.verdict, third.fragile), ("not_unique", false));
+    // A range is of all samples: one whose rank is undecided leaves none.
+    assert!(d.undecided > 0);
+    assert_eq!(third.values[0].reading, "none");
+    assert!(third.values[0].range.is_none());
+    let found = sampled(&study(&three_cranks(0.0, tolerance)), 60);
+    let d = &found.document;
+    assert_eq!(d.undecided, 0, "the first samples are decided");
+    let third = reaction(d, "P3");
     assert_eq!(third.values[0].reading, "exact");
     assert!(
         third.sentence.contains("rigid and without play"),
