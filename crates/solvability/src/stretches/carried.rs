@@ -350,16 +350,14 @@ impl OpenPart<'_> {
         let scaled = Matrix::from_fn(m, count, |i, j| {
             at.dependencies[j][self.rows[i]] / known.row_factor[i]
         });
-        let missed = (0..count).map(|j| {
-            let size = (0..m).map(|i| scaled[(i, j)]).fold(0.0, f64::hypot);
-            self.missed(whole, at, j, &accuracy.columns) / size
-        });
+        let columns = count.min(self.redundancy);
+        let z = PivotedQr::of_columns(&scaled).q_columns(0..columns);
+        // Dependencies may be almost parallel: what their orthonormal vectors miss is more.
+        let missed = (0..columns).map(|j| self.missed(whole, at, (&z, j), accuracy));
         let off = missed.fold(0.0, f64::max) / accuracy.sigma.min(1.0);
         for noise in &mut known.row_noise {
             *noise = noise.max(rank::NOISE_FACTOR * off);
         }
-        let columns = count.min(self.redundancy);
-        let z = PivotedQr::of_columns(&scaled).q_columns(0..columns);
         // Of many dependencies some combinations are there, each with its share of their size.
         let share = (self.redundancy as f64 / columns as f64).sqrt();
         let z = if share > 1.0 {
@@ -375,18 +373,24 @@ impl OpenPart<'_> {
         }
     }
 
-    /// ‖Cᵀ·z‖ of a dependency in the rows of the part, equilibrated.
-    fn missed(&self, whole: &Mechanism, at: &CarriedState<'_>, j: usize, factors: &[f64]) -> f64 {
+    /// ‖Cᵀ·z‖ of a vector in equilibrated rows of the part.
+    fn missed(
+        &self,
+        whole: &Mechanism,
+        at: &CarriedState<'_>,
+        (z, j): (&Matrix, usize),
+        accuracy: &Accuracy,
+    ) -> f64 {
         let layout = whole.layout();
         let mut sums = vec![0.0; layout.n_v];
-        for &row in &self.rows {
-            let z = at.dependencies[j][row];
+        for (i, &row) in self.rows.iter().enumerate() {
+            let z = z[(i, j)] * accuracy.known.row_factor[i];
             for (column, c) in layout.row(at.scratch, row) {
                 sums[column] += z * c;
             }
         }
-        let sums = sums.iter().zip(factors).map(|(sum, factor)| sum * factor);
-        sums.fold(0.0, f64::hypot)
+        let sums = sums.iter().zip(&accuracy.columns);
+        sums.map(|(sum, factor)| sum * factor).fold(0.0, f64::hypot)
     }
 
     /// The verdicts on all numbers of the part, with a basis for rows of the part. A basis of all
