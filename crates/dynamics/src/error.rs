@@ -123,7 +123,7 @@ pub enum MotionFault {
         /// The largest residual allowed.
         tolerance: f64,
         /// Drives and joints with functions of time among the row and those that implied it.
-        drives: Vec<String>,
+        drives: Box<[String]>,
     },
     /// A row that is redundant within the stated tolerance misses by more than data within it
     /// explain.

@@ -168,9 +168,12 @@ fn reactions(d: &EquilibriumDocument) -> Vec<Vec<String>> {
     let each = d.reactions.0.iter().map(|(name, reaction)| {
         let values = reaction.values.0.iter();
         // What is not determined has no number.
-        let values = values.map(|(name, x)| match x.is_nan() {
-            true => format!("{name} = –"),
-            false => format!("{name} = {}", short(*x, largest)),
+        let values = values.map(|(name, x)| {
+            if x.is_nan() {
+                format!("{name} = –")
+            } else {
+                format!("{name} = {}", short(*x, largest))
+            }
         });
         let verdict = reaction.verdict.verdict().replace('_', " ");
         vec![name.clone(), values.collect::<Vec<_>>().join(", "), verdict]

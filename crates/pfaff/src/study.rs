@@ -629,7 +629,7 @@ impl Study {
             let cuts = sample.events.iter().filter(|event| event.kind.cuts());
             cuts.for_each(|event| peaks.cut(event.time));
             let own = numbers.reactions.as_chosen().iter();
-            let own = own.flat_map(|r| r.components(space).into_iter().chain(r.component));
+            let own = own.flat_map(|r| r.components(space).chain(r.component));
             let values: Vec<f64> = own
                 .chain(numbers.groups.as_chosen().iter().copied())
                 .collect();

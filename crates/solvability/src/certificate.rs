@@ -123,13 +123,7 @@ impl<'a> Rows<'a> {
         if self.uncertain.c.first_non_finite().is_some() {
             return rank::decide(&self.uncertain.c, 0.0).map_err(failed);
         }
-        let question = Question {
-            mechanism: self.mechanism,
-            s: &self.scratch,
-            q: &self.q,
-            places: &self.places,
-            size: self.size,
-        };
+        let question = self.question();
         let Reading {
             rank: reading,
             nearness,
@@ -140,6 +134,37 @@ impl<'a> Rows<'a> {
             self.know_rows(&question, &mut decision, has_tolerance);
         }
         Ok(with_nearness(decision, nearness))
+    }
+
+    /// Kept rows and evidence for a rank that is known otherwise; `None` if the uncertainty of the
+    /// data hides it. Where a tolerance is stated, the rank is decided again.
+    pub(crate) fn of_rank(&self, rank: usize) -> Result<Option<RankDecision>, AnalysisError> {
+        let is_finite = self.uncertain.c.first_non_finite().is_none();
+        if !is_finite || self.question().tolerance().is_some() {
+            return self.decide().map(Some);
+        }
+        let Some(reading) = self.uncertain.of_rank(rank) else {
+            return Ok(None);
+        };
+        let failed = |source| AnalysisError::Rank {
+            time: self.scratch.t,
+            source,
+        };
+        let mut decision = self.certified(&reading).map_err(failed)?;
+        if self.places.len() <= TOLERANCE_ROWS {
+            self.know_rows(&self.question(), &mut decision, false);
+        }
+        Ok(Some(decision))
+    }
+
+    fn question(&self) -> Question<'_> {
+        Question {
+            mechanism: self.mechanism,
+            s: &self.scratch,
+            q: &self.q,
+            places: &self.places,
+            size: self.size,
+        }
     }
 
     /// A decision on these rows with other dropped rows; its rank and evidence stay.

@@ -218,7 +218,7 @@ where
                     level: self.name(),
                     residual,
                     tolerance,
-                    drives: drives_among(rows, at, i)?,
+                    drives: drives_among(rows, at, i)?.into(),
                 });
             }
         }

@@ -158,7 +158,7 @@ fn simulate_writes_the_files_of_the_contract() {
     for (determined, all) in determined.lines().zip(all.lines()).skip(1) {
         let cells = [determined, all].map(|line| line.split(',').collect::<Vec<_>>());
         let t: f64 = cells[0][0].parse().expect("a time");
-        let open = ["B.Fy", "W1.N", "W4.Fy"].map(|name| place(name));
+        let open = ["B.Fy", "W1.N", "W4.Fy"].map(&place);
         assert!(open.iter().all(|&k| cells[0][k].is_empty()), "{determined}");
         assert_eq!(cells[0][place("B.Fx")].is_empty(), t >= 1.0, "{determined}");
         assert_eq!(cells[0][place("A.Fx")], cells[1][place("A.Fx")]);

@@ -5,6 +5,7 @@
 //! for the lower rank?
 
 use crate::limits::{CLEAR_OF_NOISE, CLEAR_OF_ROUNDING, CONFIRMED, NEAR_TOLD};
+use linalg::Scaling;
 use rank::{Doubt, Grounds, RankReading, RankStatus, Spectrum};
 
 use super::UncertainMatrix;
@@ -21,17 +22,38 @@ pub(crate) struct Reading {
 }
 
 impl UncertainMatrix {
+    /// The reading of a rank that is known otherwise; `None` if the uncertainty hides it.
+    pub(crate) fn of_rank(&self, rank: usize) -> Option<RankReading> {
+        let scaling = self.scaling();
+        let scaled = Spectrum::of(scaling.apply(&self.c));
+        let noise = self.noise(&scaling);
+        let sigma_r = rank.checked_sub(1).map(|r| scaled.values()[r]);
+        let is_seen = sigma_r.is_none_or(|sigma_r| sigma_r > noise);
+        is_seen.then(|| RankReading {
+            rank,
+            status: RankStatus::Decided,
+            scaling,
+            matrix: scaled,
+            noise,
+            separation: sigma_r.map_or(0.0, |sigma_r| CONFIRMED * sigma_r),
+            grounds: Grounds::WithinData,
+        })
+    }
+
+    /// Uncertainty of all scaled entries together.
+    fn noise(&self, scaling: &Scaling) -> f64 {
+        let (m, n) = (self.c.nrows() as f64, self.c.ncols() as f64);
+        let rounding = rank::NOISE_FACTOR * f64::EPSILON * (m * n).sqrt();
+        let uncertainty = scaling.apply(&self.uncertainty);
+        uncertainty.frobenius_norm().max(rounding)
+    }
+
     /// Reads the rank and records its evidence.
     pub(crate) fn read(&self, question: &Question<'_>) -> Reading {
-        let (m, n) = (self.c.nrows(), self.c.ncols());
         let scaling = self.scaling();
         let scaled = Spectrum::of(scaling.apply(&self.c));
         let sigma = scaled.values();
-        let rounding = rank::NOISE_FACTOR * f64::EPSILON * (m as f64 * n as f64).sqrt();
-        let noise = scaling
-            .apply(&self.uncertainty)
-            .frobenius_norm()
-            .max(rounding);
+        let noise = self.noise(&scaling);
         let above = |limit: f64| sigma.partition_point(|&s| s > limit);
         let upper = above(noise);
         let clear = above(CLEAR_OF_ROUNDING.max(CLEAR_OF_NOISE * noise)).min(upper);

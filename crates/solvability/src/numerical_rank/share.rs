@@ -101,7 +101,7 @@ impl Question<'_> {
 
     /// The largest tolerance that the scene states for a point or a length; or for an angle, if it
     /// states none for lengths, whose uncertainty is then their rounding.
-    pub(super) fn tolerance(&self) -> Option<StatedTolerance> {
+    pub(crate) fn tolerance(&self) -> Option<StatedTolerance> {
         let blocks = self.mechanism.data().blocks(self.s);
         let largest = |unit: DataUnit| {
             let of_unit = blocks.iter().filter(|b| b.unit == unit);

@@ -3,7 +3,8 @@
 //! The rank is that of the regime of the motion and is not decided again. Kept rows that are
 //! factored give vectors of the left null space in plain numbers; how accurate these are is known
 //! from the last full decision, which is made for the accuracy of the motion. What they leave open
-//! is decided in full at that instant.
+//! is decided in full at the first, second, fourth, eighth … of these instants in a stretch; the
+//! others say nothing of it.
 
 use std::borrow::Cow;
 
@@ -45,6 +46,8 @@ struct OpenPart<'m> {
     /// Accuracy of vectors of its left null space, from the last full decision for the accuracy
     /// of the motion.
     known: Option<Accuracy>,
+    /// Number of states since the last cut at which these vectors left a number open.
+    open: usize,
 }
 
 /// Accuracy of vectors of a left null space.
@@ -110,6 +113,7 @@ impl<'m> CarriedVerdicts<'m> {
                     rows,
                     redundancy,
                     known: None,
+                    open: 0,
                 });
             }
         }
@@ -157,6 +161,7 @@ impl<'m> CarriedVerdicts<'m> {
 
     /// Begins another stretch.
     pub fn cut(&mut self, t: f64) {
+        self.parts.iter_mut().for_each(|part| part.open = 0);
         self.recorder.cut(t);
     }
 
@@ -255,6 +260,12 @@ impl OpenPart<'_> {
             if found.iter().all(Verdict::is_decided) {
                 return Ok(found.into_iter().map(Some).collect());
             }
+            // A full decision takes as long as many steps: it is made at ever larger distances.
+            self.open += 1;
+            if !self.open.is_power_of_two() {
+                let told = found.into_iter().map(|v| v.is_decided().then_some(v));
+                return Ok(told.collect());
+            }
         }
         self.decided(whole, at, known, forms)
     }
@@ -272,7 +283,14 @@ impl OpenPart<'_> {
         let query = |source| AnalysisError::Query { time: at.t, source };
         let (found, accuracy) = if self.rows.len() <= ROWS_MAX {
             let rows = Rows::new(&self.mechanism, at.t, &q, known)?;
-            let decision = rows.decide()?;
+            let decision = if known == Known::AsStored {
+                Some(rows.decide()?)
+            } else {
+                rows.of_rank(self.rows.len() - self.redundancy)?
+            };
+            let Some(decision) = decision else {
+                return Ok(self.nothing(forms));
+            };
             let is_of_motion =
                 decision.status == RankStatus::Decided && decision.redundancy == self.redundancy;
             let solvability = Solvability::from_decision(&rows.matrix(), decision);
@@ -314,6 +332,13 @@ impl OpenPart<'_> {
         } else {
             vec![None; found.len()]
         })
+    }
+
+    /// The answers of an instant that says nothing of others.
+    fn nothing(&self, forms: &[LinearForm]) -> Verdicts {
+        let groups = self.mechanism.layout().groups.iter();
+        let own = groups.map(|g| g.components().len() + usize::from(g.spec.component.is_some()));
+        vec![None; own.sum::<usize>() + forms.len()]
     }
 
     /// The accuracy by a decision whose columns have these exponents of two.
