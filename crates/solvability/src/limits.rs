@@ -594,11 +594,11 @@ pub const MOVED: f64 = 1e-4;
 /// is. Test: `a_beam_by_hand`.
 pub const FRAGILE: f64 = 0.1;
 
-/// Steps of the differences by which the directions of rows and the places of joints change with the
-/// pose and the data: rounding and the square of the step are both far below what a sensitivity
+/// Steps of the differences by which the directions of rows and the places of joints change with
+/// the pose and the data: rounding and the square of the step are both far below what a sensitivity
 /// shows.
-/// Unit: share of the size, or rad. Less: rounding is a change. More: the second order is one. Test:
-/// `numbers_change_as_those_of_mechanisms_built_with_other_data`.
+/// Unit: share of the size, or rad. Less: rounding is a change. More: the second order is one.
+/// Test: `numbers_change_as_those_of_mechanisms_built_with_other_data`.
 pub(crate) const SLOPE_STEP: f64 = 1e-5;
 
 /// From this change on, relative to its size, the first order does not say how far a reaction

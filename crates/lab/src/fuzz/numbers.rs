@@ -1,6 +1,6 @@
-//! A number and its verdict, on motions: random mechanisms with redundant constraints move, and what
-//! the product calls determined is compared with solutions that an own dense solver finds at the
-//! same states.
+//! A number and its verdict, on motions: random mechanisms with redundant constraints move, and
+//! what the product calls determined is compared with solutions that an own dense solver finds at
+//! the same states.
 //!
 //! - (a) What is called determined is the same in all solutions: without the rows of random
 //!   admissible sets, with elastic joints of random compliance, and in separate runs of the product

@@ -103,7 +103,8 @@ impl Start<'_> {
         })
     }
 
-    /// The bodies of these velocities, if the rows, which are independent, leave them none but zero.
+    /// The bodies of these velocities, if the rows, which are independent, leave them none but
+    /// zero.
     fn locked(&self, rows: &[usize], columns: &[usize]) -> Option<Locked> {
         let Equations { mechanism, s, .. } = &self.equations;
         if rows.len() < columns.len() || rows.iter().any(|&i| s.b[i] != 0.0) {

@@ -95,7 +95,8 @@ fn reactions_have_the_header_of_the_contract() {
 }
 
 /// A cell has a number where the component is determined on the stretch that contains the time; a
-/// row on a cut belongs to the stretch that begins there. A fragile column says so, and sums follow.
+/// row on a cut belongs to the stretch that begins there. A fragile column says so, and sums
+/// follow.
 #[test]
 fn cells_are_empty_where_nothing_is_determined() {
     let carrier = carrier();

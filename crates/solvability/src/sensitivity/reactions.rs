@@ -164,9 +164,10 @@ impl Analysis {
     /// Computes how strongly each unique component and direction depends on the data, at the
     /// configuration of the analysis and velocities v that satisfy the constraints. Each set of
     /// bodies connected by joints and drives is examined separately, with its own size and loads,
-    /// on the `rayon` thread pool of the caller. In sets with too many rows for dense matrices, each
-    /// part on common cycles is examined with its own data and size, under the loads from the rest
-    /// of the set. Parts that are themselves too large, or whose rank is undecided, are left out.
+    /// on the `rayon` thread pool of the caller. In sets with too many rows for dense matrices,
+    /// each part on common cycles is examined with its own data and size, under the loads from the
+    /// rest of the set. Parts that are themselves too large, or whose rank is undecided, are left
+    /// out.
     ///
     /// # Errors
     /// [`ChoiceError::Request`]: q or v do not fit the mechanism.

@@ -389,8 +389,8 @@ fn in_space_moments_are_compared_with_forces_by_the_size() {
     assert!(changes.iter().all(are_same), "{changes:?}");
 }
 
-/// The load of a force that calls a function stays as it is, so no derivative of it is needed. If it
-/// has no value, sensitivities are left out with the reason, and the verdicts stay.
+/// The load of a force that calls a function stays as it is, so no derivative of it is needed. If
+/// it has no value, sensitivities are left out with the reason, and the verdicts stay.
 #[test]
 fn a_called_force_is_a_load() {
     let of = |torque: f64| {

@@ -15,7 +15,8 @@ pub enum Looked {
     Ahead,
 }
 
-/// The verdicts at an instant, one for each number; `None` where the instant says nothing of others.
+/// The verdicts at an instant, one for each number; `None` where the instant says nothing of
+/// others.
 pub(super) type Verdicts = Vec<Option<Verdict>>;
 
 /// The verdicts on some numbers at instants of a run.
@@ -46,8 +47,8 @@ impl VerdictRecorder {
         }
     }
 
-    /// Takes the verdicts at an instant, one for each number; `None` at an instant that says nothing
-    /// of others. Of two at the same time the first counts.
+    /// Takes the verdicts at an instant, one for each number; `None` at an instant that says
+    /// nothing of others. Of two at the same time the first counts.
     pub fn see(&mut self, t: f64, looked: Looked, verdicts: Vec<Option<Verdict>>) {
         match looked {
             Looked::Ahead => self.ahead.push_back((t, verdicts)),

@@ -1,6 +1,6 @@
-//! Pieces of mechanisms: pivots and slides that are written more than once, cranks, chains, sliders,
-//! gears, and bodies that are braced or hinged more often than they need, some of them slightly
-//! off. A piece returns a body and a point of it, on which another piece may stand.
+//! Pieces of mechanisms: pivots and slides that are written more than once, cranks, chains,
+//! sliders, gears, and bodies that are braced or hinged more often than they need, some of them
+//! slightly off. A piece returns a body and a point of it, on which another piece may stand.
 
 use super::sketch::{Flat, Place, Side, Sketch, across, along};
 use crate::fuzz::scenes::Space;

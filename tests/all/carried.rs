@@ -1,0 +1,86 @@
+//! Verdicts of a run whose redundancy is larger than the number of vectors from which they are
+//! read.
+
+use std::fmt::Write as _;
+use std::ops::ControlFlow;
+
+use dynamics::MotionOptions;
+use model::{Registry, System};
+use pfaff::{Overrides, Study};
+use solvability::CARRIED_VECTORS;
+
+/// A beam of 1 kg/m on so many parallel cranks of 1 m, inclined by 0.6, and a pendulum on it.
+fn cranks(count: usize) -> String {
+    let (sine, cosine) = 0.6_f64.sin_cos();
+    let mut text = "[scene]\nname = \"cranks\"\nspace = \"plane\"\ngravity = [0, -10]\n".to_owned();
+    let mut body = |name: &str, [x, y]: [f64; 2], angle: f64| {
+        let _ = write!(
+            text,
+            "[[body]]\nname = \"{name}\"\nmass = 1.0\ninertia = 0.1\nposition = [{x}, {y}]\nangle = {angle}\n"
+        );
+    };
+    let middle = (count - 1) as f64 / 2.0;
+    body("beam", [middle + sine, cosine], 0.0);
+    body("load", [middle + sine, cosine - 0.5], 0.0);
+    for k in 0..count {
+        body(
+            &format!("crank-{k}"),
+            [k as f64 + 0.5 * sine, 0.5 * cosine],
+            0.0,
+        );
+    }
+    let mut pin = |name: String, bodies: [&str; 2], [x, y]: [f64; 2]| {
+        let _ = write!(
+            text,
+            "[[joint]]\nname = \"{name}\"\ntype = \"revolute\"\nbodies = {bodies:?}\nat = [{x}, {y}]\n"
+        );
+    };
+    for k in 0..count {
+        let crank = format!("crank-{k}");
+        pin(format!("foot-{k}"), ["ground", &crank], [k as f64, 0.0]);
+        pin(
+            format!("top-{k}"),
+            [&crank, "beam"],
+            [k as f64 + sine, cosine],
+        );
+    }
+    pin("hanger".into(), ["beam", "load"], [middle + sine, cosine]);
+    text
+}
+
+/// Forces along the cranks whose sum and moment on the beam vanish load nothing else: all pins of
+/// cranks are not unique in both components while the cranks are inclined, and the pin of the
+/// pendulum is.
+#[test]
+fn many_dependencies_are_read_from_few_combinations() {
+    let count = 2 * CARRIED_VECTORS;
+    let registry = Registry::standard();
+    let study = Study::read(
+        "cranks.toml",
+        &cranks(count),
+        &registry,
+        &Overrides::default(),
+    )
+    .unwrap_or_else(|e| panic!("{e}"));
+    let options = MotionOptions {
+        output_step: 0.05,
+        ..MotionOptions::to(0.2)
+    };
+    let run = study.run(&options, |_| Ok(ControlFlow::Continue(())));
+    let run = run.unwrap_or_else(|e| panic!("{}", e.error));
+    let found = run.verdicts.expect("reactions are computed");
+    let groups = &study.prepared.mechanism.layout().groups;
+    for (group, reaction) in groups.iter().zip(&found.reactions) {
+        let expected = if group.name == "hanger" {
+            "unique"
+        } else {
+            "not_unique"
+        };
+        for name in ["Fx", "Fy"] {
+            let track = reaction.component(name).expect("a force in the plane");
+            let words: Vec<&str> = track.stretches().iter().map(|s| s.verdict.word()).collect();
+            assert_eq!(words, [expected], "{} {name}", group.name);
+            assert_eq!(track.special(), [], "{} {name}", group.name);
+        }
+    }
+}
