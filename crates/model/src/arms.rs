@@ -5,7 +5,8 @@
 use crate::element::PlacedConstraint;
 use crate::group::ConstraintId;
 use crate::mechanism::Mechanism;
-use crate::size::{are_apart, size_of};
+use crate::rounding::are_apart;
+use crate::size::size_of;
 use crate::space::{difference, norm};
 use crate::system::{Scratch, System};
 

@@ -13,12 +13,12 @@ use joints::spec::DatumShape;
 
 use crate::element::{OwnRates, PlacedConstraint};
 use crate::mechanism::Mechanism;
+use crate::rounding::ROUNDING;
 use crate::rows::RowRanges;
 use crate::size::size_of;
 use crate::space::norm;
 use crate::system::Scratch;
 use crate::tolerance::Tolerance;
-use crate::uncertainty::ROUNDING;
 
 pub use gradients::DataGradients;
 

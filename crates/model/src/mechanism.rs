@@ -20,7 +20,7 @@ mod work;
 use crate::body::BodyRecord;
 use crate::group::ConstraintId;
 use crate::observed::Observed;
-use crate::size::are_apart;
+use crate::rounding::are_apart;
 use crate::space::{Space, SpaceKind, in_space};
 use crate::system::Layout;
 use crate::tolerance::Tolerance;

@@ -1,18 +1,9 @@
 //! The length scale of a mechanism: the extent of its bodies and joints.
 
 use crate::mechanism::Mechanism;
+use crate::rounding::are_apart;
 use crate::space::norm;
 use crate::system::{Scratch, System};
-use crate::uncertainty::ROUNDING;
-
-/// Points whose distance is at most this many roundings of their coordinates coincide.
-const COINCIDE: f64 = 1e3;
-
-/// Whether two points at this distance are apart: it is more than the rounding of the lengths that
-/// are added in their coordinates, the longest of which is `farthest`.
-pub(crate) fn are_apart(distance: f64, farthest: f64) -> bool {
-    distance > COINCIDE * ROUNDING * farthest
-}
 
 /// Diagonal of the box around all bodies and joints; if these coincide, around all points of the
 /// joints; 1 m if these coincide as well.

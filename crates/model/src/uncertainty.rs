@@ -8,15 +8,10 @@ use joints::Magnitude;
 use linalg::Matrix;
 
 use crate::mechanism::Mechanism;
+use crate::rounding::ROUNDING;
 use crate::scale::Scales;
 use crate::space::norm;
 use crate::system::{Layout, System};
-
-/// Relative error of the numbers of a scene and of values computed from them: half a unit in the
-/// last place for each of eight roundings, which are reading of the number, the position of its
-/// body (two), its rotation into the frame of the body (two), sine and cosine, and the evaluation
-/// of C (two).
-pub const ROUNDING: f64 = 8.0 * f64::EPSILON / 2.0;
 
 /// Number of roundings to which an assembled start satisfies the constraints.
 const CLOSED: f64 = 10.0;

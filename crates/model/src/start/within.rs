@@ -11,9 +11,9 @@ use super::error::StartError;
 use super::metric::{Restricting, dense_rows};
 use crate::data::{DataBlock, DataUnit, SHARED};
 use crate::mechanism::Mechanism;
+use crate::rounding::ROUNDING;
 use crate::size::size_of;
 use crate::system::{Scratch, System};
-use crate::uncertainty::ROUNDING;
 
 /// If data within the tolerance move a body by more than this many tolerances, they do not
 /// determine its position, and residuals along that motion are left. Lever arms are determined by

@@ -156,6 +156,7 @@ impl Seen {
         let begun = self.changes.partition_point(|(k, _)| *k <= range.start);
         let ended = self.changes.partition_point(|(k, _)| *k < range.end);
         let changes = self.changes.get(begun.saturating_sub(1)..ended);
+        let changes = changes.filter(|_| !range.is_empty());
         let changes = changes.unwrap_or_default().iter();
         changes.filter_map(|(_, verdict)| verdict.as_ref())
     }
