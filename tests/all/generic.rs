@@ -221,9 +221,10 @@ joint = [
         [0.0, 1.0, 0.0],
         [0.3, -0.2, 0.0],
     ];
-    // Upright legs turn together, too: another branch begins there.
-    for lean in [[1.0, 0.5, 2.0], [0.3, -0.4, 1.0]] {
-        for count in [4, 5] {
+    // Four feet are on a circle: where these legs are upright, a branch begins on which they turn
+    // together. The fifth foot is not on it.
+    for (lean, counts) in [([1.0, 0.5, 2.0], 4..=5), ([0.3, -0.4, 1.0], 5..=5)] {
+        for count in counts {
             let scene = legs(&feet[..count], lean);
             let found = elsewhere(&scene).unwrap_or_else(|| panic!("{scene}"));
             assert_eq!(found.redundancy, count - 3, "{lean:?} {count}: {found:?}");
