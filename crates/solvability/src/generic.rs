@@ -166,10 +166,14 @@ impl Walker<'_> {
         // Different step lengths prevent the walks from returning to the start.
         let stride = GENERIC_STEP * (1.0 + 0.5 * spread(walk + 1));
         let (mut t, mut q) = from.clone();
+        let mut before = from.clone();
         let mut heading: Option<Vec<f64>> = None;
         for _ in 0..GENERIC_STEPS {
             let (free, kept) = self.free_directions(t, &q)?;
-            let directions = self.leaving.possible(free, (t, &q), &self.units);
+            let Some(directions) = self.leaving.possible(free, (t, &q), &self.units) else {
+                (t, q) = before;
+                break;
+            };
             if directions.nrows() == 0 && !self.moves_time {
                 break;
             }
@@ -196,6 +200,7 @@ impl Walker<'_> {
                 break;
             };
             heading = Some(ahead);
+            before = (t, q);
             (t, q) = (later, there);
         }
         ((t, &q) != (from.0, &from.1)).then_some((t, q))

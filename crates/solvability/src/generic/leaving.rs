@@ -16,8 +16,8 @@ pub(super) struct Leaving<'m> {
     /// Their places in the mechanism; `None` if they are all of it.
     places: Option<Places>,
     n_v: usize,
-    /// Whether second order excludes velocities at the first configuration.
-    excludes: bool,
+    /// Number of velocities that second order excludes at the first configuration.
+    excluded: usize,
 }
 
 impl<'m> Leaving<'m> {
@@ -39,27 +39,33 @@ impl<'m> Leaving<'m> {
             mechanism,
             places,
             n_v: layout.n_v,
-            excludes: true,
+            excluded: 0,
         };
-        own.excludes = !own.excluded((t, q)).is_empty();
+        own.excluded = own.excluded((t, q)).len();
         own
     }
 
     /// Whether second order excludes velocities at the first configuration.
     pub(super) fn excludes(&self) -> bool {
-        self.excludes
+        self.excluded > 0
     }
 
     /// Of the free directions at a configuration, in rows and orthonormal, those that second order
-    /// does not exclude.
-    pub(super) fn possible(&self, free: Matrix, at: (f64, &[f64]), units: &[f64]) -> Matrix {
+    /// does not exclude. `None` where it excludes fewer than at the first configuration: another
+    /// branch may begin there.
+    pub(super) fn possible(
+        &self,
+        free: Matrix,
+        at: (f64, &[f64]),
+        units: &[f64],
+    ) -> Option<Matrix> {
         // What is excluded on a branch is so along all of it.
-        if !self.excludes || free.nrows() == 0 {
-            return free;
+        if !self.excludes() || free.nrows() == 0 {
+            return Some(free);
         }
         let excluded = self.excluded(at);
-        if excluded.is_empty() {
-            return free;
+        if excluded.len() < self.excluded {
+            return None;
         }
         let excluded: Vec<Vec<f64>> = self.dimensionless(excluded, units);
         let among = Matrix::from_fn(free.nrows(), excluded.len(), |i, j| {
@@ -68,7 +74,7 @@ impl<'m> Leaving<'m> {
         });
         let left = excluded.len().min(free.nrows())..free.nrows();
         let rest = PivotedQr::of_columns(&among).q_columns(left);
-        rest.transpose().product(&free)
+        Some(rest.transpose().product(&free))
     }
 
     /// Tangents of the branches that meet at a configuration; empty if second order does not tell
