@@ -210,7 +210,7 @@ fn refused(motions: [Function; 2], wheel: f64) -> Option<Contradiction> {
     }
 }
 
-/// What differs by more than rounding is found, also beside a wheel that turns fast: velocities are
+/// What differs by more than rounding is found, also with a wheel that turns fast: velocities are
 /// computed together, so each is known to the rounding of 1e4 rad/s, some 1e-9 rad/s in these rows.
 #[test]
 fn what_differs_by_more_than_rounding_is_a_contradiction() {

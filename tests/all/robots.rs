@@ -1,7 +1,7 @@
 //! Robots as they are imported: links whose frames lie in their joints, bodies without mass between
 //! the axes of a hip, rotors that stand in the joints they drive. Distances that are zero on paper
-//! are rounding wherever the robot does not stand at the origin and straight. Such an arm is none:
-//! each robot moves, and has one rank, at all places of the world and at all turns of it.
+//! are rounding wherever the robot does not stand at the origin and straight. Such an arm counts as
+//! zero: each robot moves, and has one rank, at all places of the world and at all turns of it.
 //!
 //! The rank is known on paper: a chain of joints without loops is redundant nowhere, so it is the
 //! number of rows. A closed loop of parallel axes has three rows that are redundant.
@@ -64,7 +64,7 @@ impl Robot {
         }
     }
 
-    /// A body whose frame is at a place; its centre of mass is beside it.
+    /// A body whose frame is at a place; its centre of mass is elsewhere.
     fn body(&mut self, name: &str, at: Vector, (mass, inertia): (f64, f64), centre: Vector) {
         let World { axis, angle, .. } = self.world;
         let at = self.world.place(at);

@@ -1,6 +1,6 @@
 //! The arms of bodies: the distances of their joints from their centres of mass. Places are
-//! differences of rounded numbers, so an arm that is shorter than what places are known to is none:
-//! it would be the unit of length of its body.
+//! differences of rounded numbers, so an arm that is shorter than what places are known to counts
+//! as zero: it would be the unit of length of its body.
 
 use crate::element::PlacedConstraint;
 use crate::group::ConstraintId;

@@ -53,9 +53,9 @@ impl ConstraintGroup {
             .collect()
     }
 
-    /// The named component that has to be reported beside force and torque, because these may not
-    /// contain it: they act on the first body, and a definition between more than two bodies, as a
-    /// coupling of two joints, may load the others alone.
+    /// The named component that has to be reported in addition to force and torque, because these
+    /// may not contain it: they act on the first body, and a definition between more than two
+    /// bodies, as a coupling of two joints, may load the others alone.
     #[must_use]
     pub fn hidden_component(&self) -> Option<&'static str> {
         let named = self.spec.component;

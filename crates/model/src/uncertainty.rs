@@ -108,7 +108,8 @@ impl Scales<'_> {
                 let body = layout.space.body_of(column);
                 let of_body = forces.iter().find(|(other, ..)| *other == body);
                 let (_, force, magnitude) = of_body.copied().unwrap_or_default();
-                // A force that is the rounding of its terms is none, whichever way the axes point.
+                // A force that is the rounding of its terms counts as zero, whichever way the axes
+                // point.
                 let has_force = force > ROUNDING * magnitude;
                 u.push(if layout.space.is_rotation(column) {
                     let lever = force * self.mechanism.reach(body);

@@ -25,7 +25,7 @@ use crate::rows::{RowFault, RowSink};
 const HINTS: usize = 8;
 const HINT_TRIALS: usize = 2_000;
 
-/// What a page tells of a run.
+/// What a page reports of a run.
 #[derive(Clone, Copy)]
 pub(crate) struct OfRun<'a> {
     pub(crate) start: &'a ConfigurationAnalysis<'a>,

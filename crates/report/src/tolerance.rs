@@ -117,7 +117,7 @@ fn reaction_rows(page: &mut String, reaction: &ReactionRangeDocument) {
     }
 }
 
-/// Cells of a range, or why there is none.
+/// Cells of a range, or why there is no range.
 fn numbers(page: &mut String, range: Option<&RangeDocument>, reason: Option<&str>) {
     let Some(range) = range else {
         let reason = reason.unwrap_or("no sample determines it");

@@ -34,7 +34,7 @@ pub struct VelocityConflict {
     pub is_enough: bool,
     /// Whether there are velocities compatible with those that `keep` holds.
     pub can_be_corrected: bool,
-    /// Why there are none but zero, if that is so.
+    /// Why only zero is possible, if that is so.
     pub locked: Option<Locked>,
 }
 

@@ -136,7 +136,7 @@ motion = { type = "harmonic", amplitude = 2.0, omega = 3.0, phase = 2.0 }
 t_end = 0.1
 "#;
 
-/// A door on three hinges, the third beside the line of the others, which a motor opens.
+/// A door on three hinges, the third off the line of the others, which a motor opens.
 fn door(beside: f64, tolerance: f64, motion: &str) -> String {
     let hinges: String = [("a", 0.0, 0.0), ("b", 0.0, 1.0), ("c", beside, 2.0)]
         .iter()
@@ -210,7 +210,7 @@ fn a_drive_that_the_joints_forbid_is_refused_by_all_commands() {
     assert_eq!([check, simulate], [Some(2); 2], "{said}");
 }
 
-/// Numbers that are facts are told from those of a choice, in all units.
+/// Determined numbers are separated from those of a choice, in all units.
 #[test]
 fn a_choice_among_sleeves_is_told_from_facts() {
     let output = with_scene(&["analyze", "-", "--choose", "minimum-norm"], TWO_SLEEVES);

@@ -173,7 +173,7 @@ fn a_pin_that_is_off_is_told_in_every_output() {
     assert_eq!(counts, [Some("6"), Some("6")]);
 }
 
-/// A lid of 18 kg on four hinges, one of them half a millimetre beside the line of the others.
+/// A lid of 18 kg on four hinges, one of them half a millimetre off the line of the others.
 const HATCH: &str = "scene = { name = \"hatch\", space = \"spatial\", gravity = [0, 0, -9.81] }
 body = [{ name = \"lid\", mass = 18, inertia = [0.8, 1.2, 2], centre = [0, 0.35, 0.02] }]
 joint = [

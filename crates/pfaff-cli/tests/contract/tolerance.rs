@@ -322,7 +322,7 @@ fn an_angle_tolerance_changes_verdicts_without_a_length() {
     );
 }
 
-/// A lid on four hinges along x, the third of them `off` (m) beside the line of the others.
+/// A lid on four hinges along x, the third of them `off` (m) from the line of the others.
 fn hatch(off: f64) -> String {
     let hinge = |(k, x): (usize, f64)| {
         let y = if k == 2 { off } else { 0.0 };

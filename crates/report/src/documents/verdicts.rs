@@ -80,7 +80,7 @@ pub struct RunNumberDocument {
     /// How strongly it depends on the data at the start.
     #[serde(flatten)]
     pub data: SensitivityDocument,
-    /// The largest value over the determined cells of the table; absent if there is none.
+    /// The largest value over the determined cells of the table; absent without such a cell.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak: Option<PeakDocument>,
 }

@@ -228,7 +228,7 @@ impl<W: Write> ReactionTable<W> {
     }
 }
 
-/// A component of a reaction by its name; NaN if there is none.
+/// A component of a reaction by its name; NaN without such a component.
 fn component(reaction: &Reaction, space: SpaceKind, name: &str) -> f64 {
     match space.component(name) {
         Some(k) => reaction.components(space).nth(k).unwrap_or(f64::NAN),

@@ -29,7 +29,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// The number with or without its label; `None` if there is none.
+    /// The number with or without its label; `None` without a number.
     #[must_use]
     pub fn number(&self) -> Option<f64> {
         match self {

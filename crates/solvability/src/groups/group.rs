@@ -51,7 +51,7 @@ impl Group {
     }
 
     /// The part of the group that belongs to some of the joints and drives, in numbers of theirs;
-    /// `None` if there is none.
+    /// `None` if no part does.
     #[must_use]
     pub fn share(&self, own: impl Fn(ConstraintId) -> Option<ConstraintId>) -> Option<Self> {
         let ids = |ids: &[ConstraintId]| ids.iter().filter_map(|&id| own(id)).collect::<Vec<_>>();

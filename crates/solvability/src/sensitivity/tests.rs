@@ -418,7 +418,7 @@ fn a_called_force_is_a_load() {
     assert!(why.ends_with("the applied forces are not finite"), "{why}");
 }
 
-/// A plate on two pins half a millimetre apart, with its mass centre a metre beside: no pin is
+/// A plate on two pins half a millimetre apart, with its mass centre a metre away: no pin is
 /// unique, but the vertical force of each is, W·c/e, and it changes by the share moved/e. Their sum
 /// is the weight, whatever the data.
 #[test]
@@ -467,8 +467,8 @@ fn a_component_may_be_fragile_alone() {
     assert!(found.change < 1e-6, "{found:?}");
 }
 
-/// A body that hangs on a guide and a stiff spring of given free length: the tension of the spring
-/// is a load, and the guide is determined as well as without it.
+/// A body that is suspended from a guide and a stiff spring of given free length: the tension of
+/// the spring is a load, and the guide is determined as well as without it.
 #[test]
 fn a_stiff_spring_makes_no_tree_fragile() {
     for stiffness in [1e3, 1e9] {

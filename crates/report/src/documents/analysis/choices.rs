@@ -37,7 +37,7 @@ pub struct ValueDocument {
     /// Name of the component; absent for multipliers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<&'static str>,
-    /// The number; `null` if there is none, whatever the verdict.
+    /// The number; `null` if there is no number, whatever the verdict.
     pub value: Option<f64>,
     /// The choice on which it depends; absent for unique numbers.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -99,7 +99,7 @@ impl Part {
         value(m, &self.centre).abs() > h * slope + h * h * curvature + error * size * size
     }
 
-    /// Combinations of the forms that are large here beside their gradients.
+    /// Combinations of the forms that are large here compared with their gradients.
     fn weights(&self, forms: &Independent) -> Vec<Vec<f64>> {
         let values = forms.values(&self.centre);
         let free: Vec<usize> = self.free().collect();

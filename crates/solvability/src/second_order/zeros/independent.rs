@@ -12,7 +12,7 @@ pub(super) struct Independent {
     /// How much each coefficient of each form may be wrong.
     pub(super) error: Vec<f64>,
     /// Whether the given forms are combinations of these, but for forms that are rounding. If not,
-    /// a common zero of these is none of the given ones.
+    /// a common zero of these is no zero of the given ones.
     pub(super) spans_all: bool,
 }
 

@@ -17,10 +17,10 @@ const FREE: f64 = 1e-10;
 impl Examined<'_> {
     /// (a) and (b) at each state.
     pub(super) fn at_states(&self, findings: &mut Findings) {
-        // By component and stretch: whether solutions differ there, whether it is free there.
-        let stretches = self.verdicts.first().map_or(0, |v| v.stretches.len());
-        let mut differs = vec![vec![[false; 2]; stretches]; self.verdicts.len()];
-        let mut seen = vec![false; stretches];
+        // By component and its own stretches: whether solutions differ there, whether it is free
+        // there; `None` where no state is.
+        let own = self.verdicts.iter().map(|own| own.stretches.len());
+        let mut found: Vec<Vec<Option<[bool; 2]>>> = own.map(|count| vec![None; count]).collect();
         for (row, instant, forms) in &self.states {
             let solutions = self.solutions(instant, forms);
             for (k, (form, own)) in forms.iter().zip(&self.verdicts).enumerate() {
@@ -47,15 +47,17 @@ impl Examined<'_> {
                     }
                     self.value(row, instant, (form, own), findings);
                 } else {
-                    seen[at] = true;
-                    differs[k][at][0] |= span > DIFFERS * instant.load.max(LOAD);
-                    differs[k][at][1] |= is_free;
+                    let [differs, free] = found[k][at].get_or_insert_default();
+                    *differs |= span > DIFFERS * instant.load.max(LOAD);
+                    *free |= is_free;
                 }
             }
         }
         for (k, own) in self.verdicts.iter().enumerate() {
-            for (at, stretch) in own.stretches.iter().enumerate().filter(|(at, _)| seen[*at]) {
-                let [differs, is_free] = differs[k][at];
+            for (stretch, found) in own.stretches.iter().zip(&found[k]) {
+                let Some([differs, is_free]) = *found else {
+                    continue;
+                };
                 match stretch.word {
                     Word::Unique => {}
                     Word::Undecided => findings.count(Count::Undecided, 1),
