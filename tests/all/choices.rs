@@ -68,14 +68,12 @@ fn started(d: &Description, rows: &RowChoice) -> Prepared {
 
 /// The number, and whether it depends on the choice.
 fn number(value: &Value) -> (f64, bool) {
-    match value {
-        Value::Unique(x) => (*x, false),
-        Value::Chosen { value, by } => {
-            assert!(!by.to_string().is_empty());
-            (*value, true)
-        }
-        Value::NotFinite(why) => panic!("{why}"),
-    }
+    let chosen = value.of_choice().map(|(x, by)| {
+        assert!(!by.to_string().is_empty());
+        (x, true)
+    });
+    let determined = value.determined().map(|x| (x, false));
+    chosen.or(determined).expect("a number")
 }
 
 fn component(d: &Distribution, joint: &str, name: &str) -> (f64, bool) {

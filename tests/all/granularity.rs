@@ -16,7 +16,7 @@ use model::{
 use pfaff::{Overrides, Study, StudyError};
 use solvability::{
     Choice, Configuration, Equations, Group, GroupVerdict, LinearForm, NormWeights, RequestError,
-    Term, Value, analyse, analyse_known, judge_frames, judge_groups,
+    Term, analyse, analyse_known, judge_frames, judge_groups,
 };
 use tests::largest;
 use tests::robot::{robot, steering};
@@ -206,9 +206,9 @@ fn resultants_are_unique_and_are_those_of_newton_and_euler() {
                 "{judgement:?}"
             );
         }
-        let [fx, fy] = [0, 1].map(|k| match norm.value(&c, &forms[k]).expect("fits") {
-            Value::Unique(x) => x,
-            chosen => panic!("{chosen}"),
+        let [fx, fy] = [0, 1].map(|k| {
+            let value = norm.value(&c, &forms[k]).expect("fits");
+            value.determined().unwrap_or_else(|| panic!("{value}"))
         });
         let mass: f64 = set.iter().map(|&k| masses[k]).sum();
         assert!(

@@ -135,7 +135,7 @@ fn questions_are_answered_by_parts_as_by_the_whole() {
         let least = Choice::MinimumNorm(NormWeights::NEWTON_METRE);
         let [x, y] = [&whole, &parts].map(|q| q.distribute(&solution, &least));
         if let (Ok(x), Ok(y)) = (&x, &y) {
-            let number = |value: &Value| value.number().expect("nothing is examined");
+            let number = |value: &Value| value.in_solution().expect("nothing is examined");
             let all = |d: &Distribution| -> Vec<f64> {
                 let each = d.reactions.iter().flat_map(|r| &r.components);
                 each.map(|(_, value)| number(value)).collect()

@@ -62,6 +62,14 @@ impl ConstraintGroup {
         named.filter(|_| self.spec.common.slots.len() > 2)
     }
 
+    /// The names of its components that are reported: those that are not identically zero, and the
+    /// named one where they may not contain it.
+    pub fn component_names(&self) -> impl Iterator<Item = &'static str> + use<> {
+        let names = self.space.components();
+        let own = self.components().into_iter().map(|c| names[c]);
+        own.chain(self.hidden_component())
+    }
+
     /// Entries (component, row) of the map from multipliers to the reaction that are not
     /// identically zero, sorted.
     #[must_use]

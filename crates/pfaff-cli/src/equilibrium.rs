@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use pfaff::dynamics::MotionOptions;
 use pfaff::dynamics::equilibrium::EquilibriumOptions;
+use pfaff::model::System;
 use pfaff::model::words::rounded;
-use pfaff::report::documents::EquilibriumDocument;
+use pfaff::report::documents::{EquilibriumDocument, Named, ReactionAtRestDocument};
 use pfaff::report::{PROVENANCE, write_json};
-use pfaff::{Overrides, Study};
+use pfaff::{Overrides, Study, StudyError};
 
 use crate::args::Equilibrium;
 use crate::console::Console;
@@ -33,16 +33,13 @@ pub(crate) fn run(arguments: &Equilibrium, console: &Console<'_>) -> Outcome {
         stable: arguments.stable,
     };
     let (found, there) = study.equilibrium(&options).map_err(|e| source.failure(e))?;
-    let motion = there
-        .held_at(found.time)
-        .motion(&MotionOptions::to(0.0))
-        .map_err(|e| e.to_string());
+    let reactions = reactions_at_rest(&there.held_at(found.time)).map_err(|e| e.to_string());
     let mut document = EquilibriumDocument::new(
         study.scene.name(),
         &study.prepared.mechanism,
         &study.prepared.q,
         &found,
-        motion.as_ref().map_err(Clone::clone),
+        reactions,
     );
     let written = match &arguments.out {
         Some(path) => {
@@ -56,6 +53,17 @@ pub(crate) fn run(arguments: &Equilibrium, console: &Console<'_>) -> Outcome {
         return console.document(&document);
     }
     console.print(&(describe(&document) + &written))
+}
+
+/// The reactions at the start of a study.
+fn reactions_at_rest(there: &Study) -> Result<Named<ReactionAtRestDocument>, StudyError> {
+    let configuration = there.analyse(0.0, None)?;
+    Ok(ReactionAtRestDocument::all(
+        &configuration.analysis.reactions,
+        &configuration.determined_reactions()?,
+        &configuration.sensitivities()?,
+        configuration.mechanism.layout(),
+    ))
 }
 
 /// Writes the scene that starts at rest, and the document; returns what was written, in words.
@@ -164,18 +172,16 @@ fn describe(d: &EquilibriumDocument) -> String {
 fn reactions(d: &EquilibriumDocument) -> Vec<Vec<String>> {
     let header = ["reaction", "on the first body", "verdict"].map(str::to_owned);
     let values = d.reactions.0.iter().flat_map(|(_, r)| r.values.0.iter());
-    let largest = values.fold(0.0, |a: f64, (_, x)| a.max(x.abs()));
+    let values = values.filter_map(|(_, x)| x.determined());
+    let largest = values.fold(0.0, |a: f64, x| a.max(x.abs()));
     let each = d.reactions.0.iter().map(|(name, reaction)| {
         let values = reaction.values.0.iter();
         // What is not determined has no number.
-        let values = values.map(|(name, x)| {
-            if x.is_nan() {
-                format!("{name} = –")
-            } else {
-                format!("{name} = {}", short(*x, largest))
-            }
+        let values = values.map(|(name, x)| match x.determined() {
+            None => format!("{name} = –"),
+            Some(x) => format!("{name} = {}", short(x, largest)),
         });
-        let verdict = reaction.verdict.verdict().replace('_', " ");
+        let verdict = reaction.verdict.verdict.replace('_', " ");
         vec![name.clone(), values.collect::<Vec<_>>().join(", "), verdict]
     });
     std::iter::once(header.to_vec()).chain(each).collect()

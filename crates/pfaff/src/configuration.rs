@@ -15,9 +15,10 @@ use scene::Scene;
 use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Continuation, Contradiction, Distribution,
     EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GroupVerdict, MomentVerdict,
-    NoFiniteReaction, Numbers, Proposals, Questions, ReactionNumber, ReactionVerdict, Rows,
-    Sensitivities, Sensitivity, Solution, State, UnitCheck, analyse_decided, analyse_dropping,
-    analyse_with_progress, generic, is_locked, no_finite_reactions, second_order, solution,
+    NoFiniteReaction, Numbers, Proposals, Questions, ReactionNumber, ReactionValues,
+    ReactionVerdict, Rows, Sensitivities, Sensitivity, Solution, State, UnitCheck, analyse_decided,
+    analyse_dropping, analyse_with_progress, generic, is_locked, no_finite_reactions, second_order,
+    solution,
 };
 
 use crate::error::StudyError;
@@ -445,7 +446,20 @@ impl<'a> ConfigurationAnalysis<'a> {
         if let Choice::Elimination(rows) = choice {
             self.check_rows(rows)?;
         }
-        Ok(self.questions.distribute(&self.solution()?, choice)?)
+        let mut found = self.questions.distribute(&self.solution()?, choice)?;
+        self.sensitivities()?.add_to(&mut found.reactions);
+        Ok(found)
+    }
+
+    /// The components of all reactions with their verdicts, without the numbers that are not
+    /// determined.
+    ///
+    /// # Errors
+    /// [`StudyError::Choice`]: the rank is undecided; [`StudyError::Request`].
+    pub fn determined_reactions(&self) -> Result<Vec<ReactionValues>, StudyError> {
+        let mut found = self.questions.determined_reactions(&self.solution()?)?;
+        self.sensitivities()?.add_to(&mut found);
+        Ok(found)
     }
 
     /// Which components are unique and which depend on a choice, determined by a change of units

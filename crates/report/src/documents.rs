@@ -29,9 +29,9 @@ pub use analysis::{
     DistributionDocument, EliminationsDocument, EvidenceDocument, FrameDocument,
     FreeDirectionDocument, GenericDocument, GenericVerdictsDocument, GroupDocument,
     MakeUniqueDocument, MixingDocument, MomentAboutDocument, NamedVerdictDocument,
-    NearlyRedundantDocument, NoFiniteReactionDocument, NoteDocument, PartsDocument,
-    PassageDocument, PointDocument, RanksDocument, ReactionDocument, ReasonsDocument, RowDocument,
-    StretchDocument, ValueDocument, ValuesDocument, WayDocument,
+    NearlyRedundantDocument, NoteDocument, PartsDocument, PassageDocument, PointDocument,
+    RanksDocument, ReactionDocument, ReasonsDocument, RowDocument, StretchDocument, ValueDocument,
+    ValuesDocument, WayDocument,
 };
 pub use answers::{
     CheckDocument, CodeDocument, CodesDocument, DiffBody, DiffChange, DiffDocument, DiffMotion,

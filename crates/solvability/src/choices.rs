@@ -5,12 +5,11 @@
 mod chosen;
 mod equations;
 mod error;
+mod label;
 mod minimise;
-mod value;
 
 use std::sync::Arc;
 
-use crate::finite::NoFiniteReaction;
 use crate::limits::VALUE_ROUNDINGS;
 use crate::pose::dimensionless;
 use model::ConstraintId;
@@ -21,11 +20,12 @@ pub(crate) use equations::solution_under;
 pub use equations::{Equations, RowTerms, Solution, solution};
 pub use error::ChoiceError;
 pub use minimise::minimise;
-pub use value::{Label, Value};
 
 use crate::groups::{Configuration, LinearForm, RequestError, check};
 use crate::parts::Extent;
+use crate::value::{Label, NoFiniteReaction, Value};
 use crate::verdict::Verdict;
+pub(crate) use label::label;
 use minimise::independent_columns;
 
 /// A rule that chooses one of the solutions.
@@ -135,30 +135,31 @@ impl Distribution {
     ) -> Result<Value, RequestError> {
         let lambda = extent.of_rows(&self.lambda);
         check("multipliers", &lambda, form.coefficients().len())?;
+        let verdict = configuration.judge(form)?.verdict;
         if let Some(why) = not_finite(&self.no_finite, extent, form) {
-            return Ok(Value::NotFinite(why));
+            return Ok(Value::not_finite(verdict, why));
         }
-        Ok(match configuration.judge(form)?.verdict {
-            // A unique number is computed from λ₀, the most accurate solution, whatever the choice.
-            Verdict::Unique => {
-                Value::Unique(configuration.value(form, &extent.of_rows(&self.lambda_0)))
-            }
-            _ => Value::Chosen {
-                value: configuration.value(form, &lambda),
-                by: self.label.clone(),
-            },
-        })
+        // A unique number is computed from λ₀, the most accurate solution, whatever the choice.
+        let value = if verdict.is_unique() {
+            configuration.value(form, &extent.of_rows(&self.lambda_0))
+        } else {
+            configuration.value(form, &lambda)
+        };
+        Ok(Value::new(value, verdict, Some(&self.label)))
     }
 
     /// The same without the numbers of reactions that have no finite value.
     pub(crate) fn without(mut self, no_finite: &[Arc<NoFiniteReaction>]) -> Self {
+        let remove = |value: &mut Value, why: &Arc<NoFiniteReaction>| {
+            *value = Value::not_finite(value.verdict().clone(), Arc::clone(why));
+        };
         for why in no_finite {
             for id in &why.reactions {
                 let components = self.reactions[id.0].components.iter_mut();
-                components.for_each(|(_, value)| *value = Value::NotFinite(Arc::clone(why)));
+                components.for_each(|(_, value)| remove(value, why));
             }
             for &row in &why.rows {
-                self.multipliers[row] = Value::NotFinite(Arc::clone(why));
+                remove(&mut self.multipliers[row], why);
             }
         }
         self.no_finite = no_finite.to_vec();
@@ -177,7 +178,7 @@ impl Distribution {
         let mut whole = Self {
             label,
             reactions: Vec::with_capacity(reactions),
-            multipliers: vec![Value::Unique(0.0); rows],
+            multipliers: vec![Value::unique(0.0); rows],
             lambda_0: lambda_0.to_vec(),
             lambda: vec![0.0; rows],
             no_finite: Vec::new(),
@@ -233,7 +234,7 @@ impl Configuration<'_> {
             Choice::Compliance(joints) => self.rigid(joints),
             _ => Vec::new(),
         };
-        self.distribute_as(lambda_0, choice, Label::of(self.layout(), choice, &rigid))
+        self.distribute_as(lambda_0, choice, label(self.layout(), choice, &rigid))
     }
 
     /// Like [`Self::distribute`], with this label.
@@ -264,9 +265,7 @@ impl Configuration<'_> {
         for (k, group) in layout.groups.iter().enumerate() {
             let id = ConstraintId(k);
             let mut components = Vec::new();
-            let own = group.components().into_iter();
-            let own = own.map(|c| layout.space.components()[c]);
-            for name in own.chain(group.hidden_component()) {
+            for name in group.component_names() {
                 let form = self.reactions.component(id, name)?;
                 components.push((name, distribution.value(self, &form)?));
             }

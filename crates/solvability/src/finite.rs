@@ -12,7 +12,6 @@
 //! second order restrict other terms, too; there the result is undecided wherever a freedom is
 //! restricted.
 
-use model::words::listed;
 use model::{ConstraintId, Mechanism, System};
 use rank::RankDecision;
 
@@ -23,41 +22,7 @@ use crate::pose::{evaluated, velocity_units};
 use crate::row_decision::RowDecision;
 use crate::second_order::{Accelerated, Restricted, SecondOrder, restrictions};
 use crate::state::{StateError, check};
-
-/// Reactions of connected bodies that have no finite value, because the loads push along a freedom
-/// that second order excludes.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct NoFiniteReaction {
-    /// The joints and drives.
-    pub reactions: Vec<ConstraintId>,
-    /// Their rows of C, from 0, ascending.
-    pub rows: Vec<usize>,
-    /// The freedom, in words.
-    pub freedom: String,
-    /// The loads that push along it: `gravity`, names of forces in backquotes, `inertia`.
-    pub loads: Vec<String>,
-    /// Whether it is proved that no finite reactions exist; otherwise it is not decided whether
-    /// they do.
-    pub decided: bool,
-}
-
-impl std::fmt::Display for NoFiniteReaction {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (loads, freedom) = (listed(&self.loads), &self.freedom);
-        if self.decided {
-            write!(
-                f,
-                "no finite reaction exists: the loads ({loads}) push along a freedom that second order excludes ({freedom})"
-            )
-        } else {
-            write!(
-                f,
-                "whether finite reactions exist is not decided: the loads ({loads}) push along a freedom that second order restricts ({freedom})"
-            )
-        }
-    }
-}
+use crate::value::NoFiniteReaction;
 
 /// The sets of connected bodies whose reactions have no finite value at time t, coordinates q and
 /// velocities v, which must satisfy the constraints. Empty if the rank is undecided, or if there is

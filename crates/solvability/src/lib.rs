@@ -73,6 +73,7 @@ pub mod state;
 pub mod stretches;
 pub mod structure;
 pub mod units;
+pub mod value;
 pub mod verdict;
 mod words;
 
@@ -86,8 +87,8 @@ pub use analysis::{
 };
 pub use certificate::{certify, inseparable};
 pub use choices::{
-    Choice, ChoiceError, Chosen, Compliance, Distribution, Equations, Label, NormWeights,
-    ReactionValues, RowTerms, Solution, Value, minimise, solution,
+    Choice, ChoiceError, Chosen, Compliance, Distribution, Equations, NormWeights, ReactionValues,
+    RowTerms, Solution, minimise, solution,
 };
 pub use error::AnalysisError;
 pub use existence::{
@@ -97,7 +98,7 @@ pub use existence::{
 pub use explain::{
     Explanation, ExplanationError, FreeDirection, Mixing, ReactionExplanation, SelfStress, explain,
 };
-pub use finite::{NoFiniteReaction, no_finite_reactions};
+pub use finite::no_finite_reactions;
 pub use frames::{FrameForms, FrameVerdict, judge_frames};
 pub use freedoms::{
     FreeMotion, FreeMotions, Freedoms, FreedomsWithoutDrives, LeftOut, WithoutDrives, motions_among,
@@ -126,7 +127,7 @@ pub use second_order::{
     CommonZero, Continuation, Restricted, Restrictions, SecondOrder, Undetermined,
     blocked_velocities, common_zero, is_locked, restrictions, second_order,
 };
-pub use sensitivity::{Datum, ReactionNumber, ReactionSensitivities, Sensitivities, Sensitivity};
+pub use sensitivity::{ReactionNumber, ReactionSensitivities, Sensitivities};
 pub use state::{State, StateError};
 pub use stretches::{
     CarriedState, CarriedVerdicts, GroupStretches, Looked, ReactionStretches, SpecialInstant,
@@ -134,4 +135,5 @@ pub use stretches::{
 };
 pub use structure::structure;
 pub use units::{Nature, UnitCheck, UnitError, Units, check_units};
+pub use value::{Datum, Label, NoFiniteReaction, Sensitivity, Value};
 pub use verdict::{Judgement, Verdict};

@@ -17,7 +17,8 @@ use rayon::prelude::*;
 
 use crate::analysis::Analysis;
 use crate::choices::{
-    Choice, ChoiceError, Compliance, Distribution, Equations, Label, Solution, Value, not_finite,
+    Choice, ChoiceError, Compliance, Distribution, Equations, ReactionValues, Solution, label,
+    not_finite,
 };
 use crate::explain::{Explanation, ExplanationError, explain};
 use crate::frames::FrameVerdict;
@@ -25,6 +26,7 @@ use crate::groups::{Configuration, Group, GroupVerdict, NO_REACTION, RequestErro
 use crate::moments::MomentVerdict;
 use crate::parts::{ListedRows, PartAnalysis};
 use crate::units::{UnitCheck, UnitError, check_equations};
+use crate::value::Value;
 use crate::verdict::{Judgement, Verdict, worst};
 
 pub use eliminations::EliminationError;
@@ -254,24 +256,54 @@ impl<'a> Questions<'a> {
         }
     }
 
-    /// The numbers of a group that are the same in every solution, with their names; a group of
-    /// several separate reactions has none.
+    /// The numbers of a group with their names and verdicts, without those that are not the same in
+    /// every solution; a group of several separate reactions has none.
     ///
     /// # Errors
     /// As [`Questions::group`].
     pub fn determined(&self, group: &Group, solution: &Solution) -> Result<Numbers, RequestError> {
         let lambda = &solution.multipliers;
         self.numbers(group, |k, configuration, form| {
-            let is_unique = configuration.judge(form)?.verdict.is_unique();
+            let verdict = configuration.judge(form)?.verdict;
             let extent = &self.parts()[k].extent;
             let own = extent.of_rows(lambda);
-            Ok(
-                is_unique.then(|| match not_finite(&solution.no_finite, extent, form) {
-                    Some(why) => Value::NotFinite(why),
-                    None => Value::Unique(configuration.value(form, &own)),
-                }),
-            )
+            Ok(match not_finite(&solution.no_finite, extent, form) {
+                Some(why) => Value::not_finite(verdict, why),
+                None => Value::new(configuration.value(form, &own), verdict, None),
+            })
         })
+    }
+
+    /// The components of all joints and drives that are not identically zero, with their verdicts,
+    /// without the numbers that are not the same in every solution.
+    ///
+    /// # Errors
+    /// As [`Questions::group`].
+    pub fn determined_reactions(
+        &self,
+        solution: &Solution,
+    ) -> Result<Vec<ReactionValues>, RequestError> {
+        let layout = self.mechanism.layout();
+        let of = |id: ConstraintId| {
+            let group = &layout.groups[id.0];
+            let component = |name: &'static str| {
+                let term = Term {
+                    reaction: id,
+                    component: name.to_owned(),
+                    coefficient: 1.0,
+                };
+                let numbers = self.determined(&Group::Combination(vec![term]), solution)?;
+                Ok(numbers.into_iter().map(move |(_, value)| (name, value)))
+            };
+            let components = group.component_names().map(component);
+            let components = components.collect::<Result<Vec<_>, RequestError>>()?;
+            Ok(ReactionValues {
+                id,
+                name: group.name.clone(),
+                components: components.into_iter().flatten().collect(),
+            })
+        };
+        layout.constraint_ids().map(of).collect()
     }
 
     /// All numbers of a group for a given choice.
@@ -285,11 +317,11 @@ impl<'a> Questions<'a> {
     ) -> Result<Numbers, RequestError> {
         self.numbers(group, |k, configuration, form| {
             let extent = &self.parts()[k].extent;
-            distribution.value_in(extent, configuration, form).map(Some)
+            distribution.value_in(extent, configuration, form)
         })
     }
 
-    /// Sums over parts; `None` if a contribution is missing.
+    /// Sums over parts.
     fn numbers(
         &self,
         group: &Group,
@@ -297,22 +329,21 @@ impl<'a> Questions<'a> {
             usize,
             &Configuration<'a>,
             &crate::groups::LinearForm,
-        ) -> Result<Option<Value>, RequestError>,
+        ) -> Result<Value, RequestError>,
     ) -> Result<Numbers, RequestError> {
         let about = self.about(group)?;
-        let mut sums: Vec<(&'static str, Option<Value>)> = Vec::new();
+        let mut sums: Numbers = Vec::new();
         for (k, share) in self.shares(group)? {
             let configuration = self.configuration(k)?;
             for (name, form) in configuration.reactions.numbers_about(&share, about)? {
                 let own = value(k, configuration, &form)?;
                 match sums.iter_mut().find(|(known, _)| *known == name) {
-                    Some((_, sum)) => *sum = sum.take().zip(own).map(|(a, b)| a + b),
+                    Some((_, sum)) => *sum = sum.clone() + own,
                     None => sums.push((name, own)),
                 }
             }
         }
-        let told = sums.into_iter();
-        Ok(told.filter_map(|(name, sum)| Some((name, sum?))).collect())
+        Ok(sums)
     }
 
     /// The verdicts of a reaction in all frames that it has.
@@ -376,7 +407,7 @@ impl<'a> Questions<'a> {
             }
             Choice::MinimumNorm(_) => Vec::new(),
         };
-        let label = Label::of(self.mechanism.layout(), choice, &rigid);
+        let label = label(self.mechanism.layout(), choice, &rigid);
         let share = |k: usize| {
             let extent = &self.parts()[k].extent;
             let own = match choice {

@@ -37,6 +37,15 @@ impl Verdict {
         }
     }
 
+    /// The verdict that leaves more open.
+    pub(crate) fn worse(self, other: Self) -> Self {
+        if other.severity() > self.severity() {
+            other
+        } else {
+            self
+        }
+    }
+
     /// Whether it is decided.
     #[must_use]
     pub fn is_decided(&self) -> bool {

@@ -175,7 +175,7 @@ class GroupVerdict:
     components: dict[str, ComponentVerdict]
     """For a sum of wrenches, each of its components."""
     values: dict[str, float]
-    """The numbers that are unique."""
+    """Its numbers; NaN where they are not unique."""
 
     @property
     def unique(self) -> bool:

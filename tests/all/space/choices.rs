@@ -38,7 +38,7 @@ fn on_body(d: &Distribution, joint: &str, component: &str) -> f64 {
     let components = &reaction.expect("a joint").components;
     let found = components.iter().find(|(name, _)| *name == component);
     let value = &found.expect("a component").1;
-    -value.number().expect("finite reactions")
+    -value.in_solution().expect("finite reactions")
 }
 
 fn close(found: f64, expected: f64, size: f64, what: &str) {

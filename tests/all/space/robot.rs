@@ -306,7 +306,7 @@ fn choices_cannot_be_improved_by_a_load_that_nothing_feels() {
                     let (_, own) = own.expect("the same joints");
                     for (name, value) in &reaction.components {
                         let k = NAMES.iter().position(|n| n == name).expect("a component");
-                        let value = value.number().expect("finite reactions");
+                        let value = value.in_solution().expect("finite reactions");
                         let term = weights[k / 3] * value * own[k];
                         change += term;
                         size += term.abs();

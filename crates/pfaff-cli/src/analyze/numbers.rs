@@ -24,8 +24,8 @@ pub(super) fn describe(choices: &[DistributionDocument]) -> String {
         for (j, component) in reaction.components.iter().enumerate() {
             let name = component.name.unwrap_or_default();
             let mut cells = vec![reaction.name.clone(), name.to_owned()];
-            let number = |v: &ValueDocument| format!("{:>12}", number(v.value));
-            let is_fact = component.choice.is_none();
+            let number = |v: &ValueDocument| format!("{:>12}", number(v.value.in_solution()));
+            let is_fact = component.value.of_choice().is_none();
             if is_fact {
                 cells.push(number(component));
             } else {
@@ -33,7 +33,7 @@ pub(super) fn describe(choices: &[DistributionDocument]) -> String {
                 let all = columns_of.iter();
                 cells.extend(all.map(|column| number(&column[i].components[j])));
             }
-            if component.value.is_some()
+            if component.value.in_solution().is_some()
                 && component.nature == Some(if is_fact { "choice" } else { "fact" })
             {
                 suspicious.push(format!("{name} of {}", reaction.name));

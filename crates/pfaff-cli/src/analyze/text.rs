@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
     ComponentDocument, GroupDocument, MakeUniqueDocument, MixingDocument, ReactionDocument,
-    SensitivityDocument, VerdictDocument,
+    SensitivityDocument, ValueDocument, VerdictDocument,
 };
 
 use super::{along, counts, data, deletions, numbers, rank};
@@ -246,13 +246,19 @@ fn groups(d: &AnalysisDocument) -> String {
 /// The components of a group: a unique one with its number if it is known, the others with their
 /// verdicts.
 fn numbers_of(g: &GroupDocument) -> String {
-    let value = |name: &str| g.values.iter().find(|v| v.name == Some(name));
+    let value = |name: &str| {
+        let given = |v: &&ValueDocument| {
+            v.value.in_solution().is_some() || v.value.no_finite_reaction().is_some()
+        };
+        let mut all = g.values.iter();
+        all.find(|v| v.name == Some(name)).filter(given)
+    };
     if let Some(sum) = value("sum") {
-        return format!(": {}", numbers::number(sum.value));
+        return format!(": {}", numbers::number(sum.value.in_solution()));
     }
     let components = g.components.iter().map(|c| match value(c.name) {
         Some(known) => {
-            let (value, fragile) = (numbers::number(known.value), hanging(&c.data));
+            let (value, fragile) = (numbers::number(known.value.in_solution()), hanging(&c.data));
             format!("{} = {value}{fragile}", c.name)
         }
         None => format!("{} {}", c.name, spoken(c.verdict.verdict)),

@@ -238,7 +238,13 @@ fn sums_have_numbers() {
 fn a_sum_that_is_not_unique_has_a_number_by_choice_only() {
     let sum = ["--combine", "out-1.T - out-2.T"];
     let d = analysis("gear-train", &sum);
-    assert_eq!(d["groups"][1]["values"], Value::Null, "{d:#}");
+    let open = &d["groups"][1]["values"][0];
+    assert_eq!(
+        (&open["value"], &open["verdict"]),
+        (&Value::Null, &"not_unique".into()),
+        "{d:#}"
+    );
+    assert!(open["choice"].is_null(), "{open}");
     let d = analysis(
         "gear-train",
         &[&sum[..], &["--choose", "minimum-norm"]].concat(),

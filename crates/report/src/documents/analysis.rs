@@ -23,7 +23,7 @@ pub use along::{
     AlongDocument, ContinuationDocument, DifferenceDocument, GenericVerdictsDocument,
     NamedVerdictDocument, PassageDocument, StretchDocument,
 };
-pub use choices::{DistributionDocument, NoFiniteReactionDocument, ValueDocument, ValuesDocument};
+pub use choices::{DistributionDocument, ValueDocument, ValuesDocument};
 pub use data::DataDocument;
 pub use deletions::{EliminationsDocument, MakeUniqueDocument, WayDocument};
 pub use evidence::{EvidenceDocument, GenericDocument, NearlyRedundantDocument, PointDocument};
@@ -343,7 +343,7 @@ impl AnalysisDocument {
     /// Adds which reactions have no number in the motion, with a warning for each set.
     pub fn add_no_finite(&mut self, found: &NoFiniteReaction) {
         for id in &found.reactions {
-            self.reactions[id.0].no_finite_reaction = Some(found.into());
+            self.reactions[id.0].no_finite_reaction = Some(found.clone());
         }
         let names = found.reactions.iter();
         let names: Vec<String> = names

@@ -2,10 +2,11 @@
 
 use dynamics::equilibrium::{Equilibrium, RestStability};
 use linalg::kernels::norm;
-use model::{Mechanism, SpaceKind, System};
+use model::{Layout, Mechanism, SpaceKind, System};
 use serde::Serialize;
+use solvability::{ReactionValues, ReactionVerdict, Sensitivities, Value};
 
-use super::{MotionDocument, Named, RunReactionDocument};
+use super::{Named, SensitivityDocument, VerdictDocument};
 
 /// The document of `equilibrium --json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -66,24 +67,50 @@ pub struct RestingBodyDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ReactionAtRestDocument {
-    /// Its verdict and those of its components.
+    /// Its verdict.
     #[serde(flatten)]
-    pub verdict: RunReactionDocument,
-    /// Force and torque on the first body, by component (N, N·m); `null` if it is not determined.
-    pub values: Named<f64>,
+    pub verdict: VerdictDocument,
+    /// How strongly it depends on the data.
+    #[serde(flatten)]
+    pub data: SensitivityDocument,
+    /// Force and torque on the first body by component (N, N·m), as far as they are not identically
+    /// zero.
+    pub values: Named<Value>,
+}
+
+impl ReactionAtRestDocument {
+    /// The documents of all reactions of an analysed configuration, with their names.
+    #[must_use]
+    pub fn all(
+        verdicts: &[ReactionVerdict],
+        values: &[ReactionValues],
+        sensitivities: &Sensitivities,
+        layout: &Layout,
+    ) -> Named<Self> {
+        let one = |(verdict, values): (&ReactionVerdict, &ReactionValues)| {
+            let numbers = values.components.iter();
+            let numbers = numbers.map(|(name, value)| ((*name).to_owned(), value.clone()));
+            let document = Self {
+                verdict: (&verdict.wrench).into(),
+                data: SensitivityDocument::of(sensitivities, verdict.id, layout),
+                values: Named(numbers.collect()),
+            };
+            (values.name.clone(), document)
+        };
+        Named(verdicts.iter().zip(values).map(one).collect())
+    }
 }
 
 impl EquilibriumDocument {
     /// The document of a place of rest of a scene. `start` are the coordinates of the start;
-    /// `there` is the run that begins at the place with functions of time held and ends at once, or
-    /// why there is none.
+    /// `there` are the reactions at the place with functions of time held, or why there are none.
     #[must_use]
     pub fn new(
         scene: &str,
         mechanism: &Mechanism,
         start: &[f64],
         x: &Equilibrium,
-        there: Result<&MotionDocument, String>,
+        there: Result<Named<ReactionAtRestDocument>, String>,
     ) -> Self {
         let bodies = (0..mechanism.bodies().len()).map(|body| {
             let name = mechanism.bodies()[body].name.clone();
@@ -92,8 +119,8 @@ impl EquilibriumDocument {
         let groups = &mechanism.layout().groups;
         let drives = groups.iter().filter(|group| group.is_drive());
         let (reactions, no_reactions_because) = match there {
-            Ok(run) => (reactions(run), None),
-            Err(why) => (Vec::new(), Some(why)),
+            Ok(reactions) => (reactions, None),
+            Err(why) => (Named(Vec::new()), Some(why)),
         };
         Self {
             scene: scene.to_owned(),
@@ -110,7 +137,7 @@ impl EquilibriumDocument {
             depends_on_way: x.depends_on_way,
             held: drives.map(|group| group.name.clone()).collect(),
             moving_on: x.moving_on.clone(),
-            reactions: Named(reactions),
+            reactions,
             no_reactions_because,
             file: None,
         }
@@ -136,23 +163,4 @@ fn resting(mechanism: &Mechanism, body: usize, start: &[f64], q: &[f64]) -> Rest
         turned,
         at: Named(places.map(|(name, x)| ((*name).to_owned(), x)).collect()),
     }
-}
-
-fn reactions(run: &MotionDocument) -> Vec<(String, ReactionAtRestDocument)> {
-    let verdicts = run.summary.reactions.0.iter();
-    let values = run.rows.last().map(|row| row.reactions.0.as_slice());
-    let of = |name: &str| {
-        let mut all = values.unwrap_or_default().iter();
-        all.find(|(other, _)| other == name)
-            .map_or(Named(Vec::new()), |(_, values)| values.clone())
-    };
-    verdicts
-        .map(|(name, verdict)| {
-            let document = ReactionAtRestDocument {
-                verdict: verdict.clone(),
-                values: of(name),
-            };
-            (name.clone(), document)
-        })
-        .collect()
 }

@@ -41,7 +41,7 @@ impl SensitivityDocument {
     fn with(own: &Sensitivity, text: impl FnOnce() -> String) -> Self {
         let fragile = own.is_fragile();
         Self {
-            sensitivity: Some(three_digits(own.change)),
+            sensitivity: Some(own.stated()),
             fragile,
             hangs_on: fragile.then(text),
         }
@@ -56,9 +56,4 @@ impl SensitivityDocument {
             self
         }
     }
-}
-
-/// An estimate of first order has no more accurate digits.
-fn three_digits(x: f64) -> f64 {
-    format!("{x:.2e}").parse().unwrap_or(x)
 }

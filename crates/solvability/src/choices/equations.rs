@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
-use crate::finite::NoFiniteReaction;
 use crate::limits::{AGREEMENT, ROWS_MAX};
 use crate::pose::velocity_units;
 use crate::row_decision::RowDecision;
+use crate::value::NoFiniteReaction;
 use linalg::{KeptRowSaddle, Matrix, SchurSaddle, SchurStructure};
 use model::start::scene_size;
 use model::{Level, Mechanism, Scratch, System};

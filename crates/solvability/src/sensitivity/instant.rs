@@ -12,11 +12,11 @@ use model::{
     ColumnKind, ConstraintId, DataBlock, DataGradients, DataUnit, Derivatives, Mechanism, System,
 };
 
-use super::Datum;
 use super::held::{Held, HeldSlopes};
 use super::joined::Joined;
 use super::number::ReactionNumber;
 use crate::choices::ChoiceError;
+use crate::value::{Datum, Sensitivity};
 
 /// Angle between the directions of successive unit loads (rad): the golden angle, which is far from
 /// every simple fraction of a turn.
@@ -280,6 +280,16 @@ pub(super) struct Change {
 }
 
 impl Change {
+    /// The change as a fraction; `None` if it is not known.
+    pub(super) fn relative(self) -> Option<Sensitivity> {
+        let change = match self.by {
+            None if self.largest == 0.0 => 0.0,
+            _ => self.largest / self.value.abs().max(self.load),
+        };
+        let by = self.by;
+        change.is_finite().then_some(Sensitivity { change, by })
+    }
+
     /// The change of a sum of two numbers that depend on different data.
     pub(super) fn and(self, other: Self) -> Self {
         let (value, load) = (self.value + other.value, self.load.max(other.load));

@@ -3,12 +3,13 @@
 
 use model::{ConstraintId, Layout, Mechanism, System};
 
+use super::ReactionNumber;
 use super::by_sets::changes;
-use super::{Datum, ReactionNumber, Sensitivity, told};
 use crate::analysis::Analysis;
-use crate::choices::ChoiceError;
+use crate::choices::{ChoiceError, ReactionValues};
 use crate::groups::check;
 use crate::judged::ReactionVerdict;
+use crate::value::{Datum, Sensitivity, change_in_words};
 use crate::words;
 
 /// Sensitivities of the numbers of one reaction that are unique.
@@ -80,6 +81,15 @@ impl Sensitivities {
         self.each.get(id.0)?.largest()
     }
 
+    /// Adds those of the determined components of reactions.
+    pub fn add_to(&self, reactions: &mut [ReactionValues]) {
+        for reaction in reactions {
+            for (name, value) in &mut reaction.components {
+                value.add_sensitivity(self.component(reaction.id, name).cloned());
+            }
+        }
+    }
+
     /// The reactions with a fragile component.
     pub fn fragile(&self) -> impl Iterator<Item = (ConstraintId, &Sensitivity)> {
         let each = self.each.iter().enumerate();
@@ -144,7 +154,7 @@ fn sentences(
     let sentence = |(by, change, names): (Option<Datum>, f64, Vec<String>)| {
         let condition = by.map(|by| by.condition(layout)).unwrap_or_default();
         let are = if names.len() == 1 { "is" } else { "are" };
-        let change = told(change, names.len());
+        let change = change_in_words(change, names.len());
         format!(
             "{} {are} unique but {change} if {condition}",
             words::list(&names)
@@ -234,7 +244,7 @@ impl Analysis {
         check("v", v, layout.n_v)?;
         let found = changes(mechanism, (self.time, q, v), &self.decision.kept, numbers);
         let each = found.each.into_iter();
-        let each = each.map(|change| Sensitivity::of(change?));
+        let each = each.map(|change| change?.relative());
         Ok((each.collect(), found.left_out))
     }
 }

@@ -3,7 +3,7 @@
 use crate::limits::MOVED;
 use joints::{KnifeEdge, Line, PointOnLine, Revolute, RevoluteAngleDrive};
 use linalg::Matrix;
-use model::{Body, BodyRef, Description, Function, Mechanism, System};
+use model::{Body, BodyRef, ConstraintId, Description, Function, Mechanism, System};
 
 mod fleets;
 mod numbers;
@@ -11,6 +11,7 @@ mod parts;
 
 use super::*;
 use crate::sketch::{GROUND, Kind, Sketch, Z};
+use crate::value::{Sensitivity, change_in_words, length};
 use joints::space3::Pose;
 
 /// Sensitivities of all reactions, all of which are unique.
@@ -344,7 +345,7 @@ fn sentences_are_for_people() {
         (4.6, 3, "would change by up to several times their size"),
         (1e4, 1, "would change by many times its size"),
     ] {
-        assert_eq!(told(change, reactions), text);
+        assert_eq!(change_in_words(change, reactions), text);
     }
 }
 

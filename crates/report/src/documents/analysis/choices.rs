@@ -3,7 +3,7 @@
 
 use model::{ConstraintId, Frame};
 use serde::Serialize;
-use solvability::{Distribution, Nature, NoFiniteReaction, UnitCheck, Value};
+use solvability::{Distribution, Nature, UnitCheck, Value};
 
 /// The reactions for one choice.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -30,50 +30,20 @@ pub struct ValuesDocument {
     pub components: Vec<ValueDocument>,
 }
 
-/// A number.
+/// A number with its verdict.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ValueDocument {
     /// Name of the component; absent for multipliers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<&'static str>,
-    /// The number; `null` if there is no number, whatever the verdict.
-    pub value: Option<f64>,
-    /// The choice on which it depends; absent for unique numbers.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub choice: Option<String>,
+    /// The number and its verdict.
+    #[serde(flatten)]
+    pub value: Value,
     /// Result of a change of units, independent of the verdicts: `fact` or `choice`; absent if not
     /// requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nature: Option<&'static str>,
-    /// Why there is no number.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub no_finite_reaction: Option<NoFiniteReactionDocument>,
-}
-
-/// Reason why a reaction has no number although the equations have solutions: the loads push along
-/// a freedom that second order excludes.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[non_exhaustive]
-pub struct NoFiniteReactionDocument {
-    /// The freedom, in words.
-    pub freedom: String,
-    /// The loads that push along it.
-    pub loads: Vec<String>,
-    /// `false` if second order decides neither that finite reactions exist nor that they do not;
-    /// absent otherwise.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub decided: Option<bool>,
-}
-
-impl From<&NoFiniteReaction> for NoFiniteReactionDocument {
-    fn from(found: &NoFiniteReaction) -> Self {
-        Self {
-            freedom: found.freedom.clone(),
-            loads: found.loads.clone(),
-            decided: (!found.decided).then_some(false),
-        }
-    }
 }
 
 impl DistributionDocument {
@@ -131,17 +101,10 @@ impl ValueDocument {
     }
 
     fn new(name: Option<&'static str>, value: &Value, nature: Option<&'static str>) -> Self {
-        let (number, choice, no_finite_reaction) = match value {
-            Value::Unique(value) => (Some(*value), None, None),
-            Value::Chosen { value, by } => (Some(*value), Some(by.to_string()), None),
-            Value::NotFinite(why) => (None, None, Some((&**why).into())),
-        };
         Self {
             name,
-            value: number,
-            choice,
+            value: value.clone(),
             nature,
-            no_finite_reaction,
         }
     }
 }

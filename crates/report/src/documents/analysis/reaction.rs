@@ -4,11 +4,11 @@ use model::{ConstraintId, Frame, Layout, SpaceKind};
 use rank::Settled;
 use serde::Serialize;
 use solvability::{
-    ComponentVerdict, Explanation, FrameVerdict, FreeDirection, GroupVerdict, ReactionVerdict,
-    Sensitivities, Sensitivity, Value,
+    ComponentVerdict, Explanation, FrameVerdict, FreeDirection, GroupVerdict, NoFiniteReaction,
+    ReactionVerdict, Sensitivities, Sensitivity, Value,
 };
 
-use super::{NoFiniteReactionDocument, ValueDocument};
+use super::ValueDocument;
 use crate::documents::{SensitivityDocument, VerdictDocument};
 
 /// The verdict on a joint or drive.
@@ -64,7 +64,7 @@ pub struct ReactionDocument {
     pub moment_unique_about: Option<Vec<f64>>,
     /// Why it has no number in the motion, whatever its verdict.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub no_finite_reaction: Option<NoFiniteReactionDocument>,
+    pub no_finite_reaction: Option<NoFiniteReaction>,
 }
 
 /// The verdict on a moment about a point.
@@ -162,7 +162,8 @@ pub struct GroupDocument {
     /// The point (m, global components) about which the torque of a sum of wrenches is taken.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub about: Option<Vec<f64>>,
-    /// Its unique numbers (N, N·m): the `sum` of components, or those of force and torque.
+    /// Its numbers with their verdicts (N, N·m): the `sum` of components, or those of force and
+    /// torque; without values where they are not determined.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<ValueDocument>,
 }
@@ -382,6 +383,11 @@ impl GroupDocument {
     /// Adds how strongly its unique numbers depend on the data: one sensitivity for each, in their
     /// order.
     pub fn add_sensitivities(&mut self, found: Vec<Option<Sensitivity>>, layout: &Layout) {
+        let unique = self.values.iter_mut().map(|v| &mut v.value);
+        let unique = unique.filter(|value| value.verdict().is_unique());
+        for (value, found) in unique.zip(&found) {
+            value.add_sensitivity(found.clone());
+        }
         let name = &self.name;
         if self.components.is_empty() {
             let sums = found
@@ -399,7 +405,7 @@ impl GroupDocument {
         );
     }
 
-    /// Adds the unique numbers of the group.
+    /// Adds the numbers of the group.
     #[must_use]
     pub fn with_values(mut self, values: &[(&'static str, Value)]) -> Self {
         self.values = ValueDocument::named(values);

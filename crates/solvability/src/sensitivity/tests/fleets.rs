@@ -4,7 +4,7 @@
 use joints::{PointOnLine, Revolute, RevoluteAngleDrive, SpringDamper};
 use model::{Body, BodyRef, Description, Function, Mechanism, System};
 
-use super::super::*;
+use crate::value::Sensitivity;
 
 /// Adds a driven crank with a rod whose end moves on an oblique line, at the given place and with
 /// the given motion. Returns the crank.

@@ -4,6 +4,7 @@
 use joints::PointForce;
 
 use super::*;
+use crate::value::Sensitivity;
 
 /// Number of bars of 0.1 m and 0.01 kg that hang in a row from the beam, at rest.
 const LINKS: usize = 320;

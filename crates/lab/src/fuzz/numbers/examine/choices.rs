@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use model::Known;
 use nalgebra::DVector;
-use solvability::{Choice, Questions, Value, analyse_known, solution};
+use solvability::{Choice, Questions, analyse_known, solution};
 
 use super::{AT_STATE, Examined, LOAD, reference};
 use crate::fuzz::numbers::findings::{Findings, Kind};
@@ -75,11 +75,12 @@ impl Examined<'_> {
                 let components = &found.reactions[form.group].components;
                 let of = components.iter().find(|(name, _)| *name == form.name);
                 let Some((_, value)) = of else { continue };
-                let (given, permitted) = match value {
-                    Value::Unique(x) => (x, AT_STATE * reference(verdict, &[*right], instant.load)),
-                    Value::Chosen { value, .. } => (value, CHOSEN * largest),
-                    // No number is not a wrong one.
-                    Value::NotFinite(_) => continue,
+                let fact = AT_STATE * reference(verdict, &[*right], instant.load);
+                let determined = value.determined().map(|x| (x, fact));
+                let chosen = value.of_choice().map(|(x, _)| (x, CHOSEN * largest));
+                // No number is not a wrong one.
+                let Some((given, permitted)) = determined.or(chosen) else {
+                    continue;
                 };
                 if (form.unit * given - right).abs() > permitted.max(AT_STATE * LOAD) {
                     let text = format!(

@@ -1,0 +1,60 @@
+//! Names of choices.
+
+use crate::limits::{FIRST_NAMED, NAMED_ROWS};
+
+use model::{ConstraintId, Layout, RowLabel};
+
+use super::error::{list, row_word};
+use super::{Choice, Compliance};
+use crate::value::Label;
+use crate::words;
+
+/// Name of a choice in which these joints and drives are rigid.
+pub(crate) fn label(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) -> Label {
+    let text = match choice {
+        Choice::MinimumNorm(w) => format!(
+            "minimum norm, forces weighted by {}/N and torques by {}/(N·m)",
+            w.force, w.torque
+        ),
+        Choice::Compliance(joints) => {
+            let joint = |j: &Compliance| {
+                let name = &layout.groups[j.reaction.0].name;
+                let axes = ["x", "y", "z"].into_iter().zip(j.along);
+                let directions = axes.take(layout.space.n_translations());
+                let along = if directions.clone().all(|(_, along)| along == j.along[0]) {
+                    format!("{:e} m/N", j.along[0])
+                } else {
+                    let each = directions.map(|(axis, c)| format!("{c:e} m/N along {axis}"));
+                    each.collect::<Vec<_>>().join(", ")
+                };
+                if j.rotation == 0.0 {
+                    format!("`{name}` {along}")
+                } else {
+                    format!("`{name}` {along}, {:e} rad/(N·m)", j.rotation)
+                }
+            };
+            let listed: Vec<String> = joints.iter().map(joint).collect();
+            let rigid = match words::names(layout, rigid).as_slice() {
+                [] => String::new(),
+                names => format!("; rigid: {}", names.join(", ")),
+            };
+            format!("elastic supports: {}{rigid}", listed.join("; "))
+        }
+        Choice::Elimination(rows) => {
+            let known = rows.iter().filter_map(|&i| layout.labels.get(i));
+            let labels: Vec<RowLabel> = known.cloned().collect();
+            // The label is repeated at every number, so it lists only the first rows.
+            let (told, more) = if labels.len() > NAMED_ROWS {
+                labels.split_at(FIRST_NAMED)
+            } else {
+                (&labels[..], &[][..])
+            };
+            let word = row_word(&labels);
+            match more.len() {
+                0 => format!("no reaction in {word} {}", list(told)),
+                more => format!("no reaction in {word} {} and {more} more", list(told)),
+            }
+        }
+    };
+    Label::new(text)
+}

@@ -1,0 +1,286 @@
+//! A number of a reaction and its verdict: one value.
+
+mod label;
+mod no_finite;
+mod sensitivity;
+
+use std::fmt;
+use std::sync::Arc;
+
+use serde::{Serialize, Serializer};
+
+use crate::verdict::Verdict;
+
+pub use label::Label;
+pub use no_finite::NoFiniteReaction;
+pub(crate) use sensitivity::change_in_words;
+pub use sensitivity::{Datum, Sensitivity, length};
+
+/// A number of a reaction (a component, a sum, a multiplier) with its verdict and with how strongly
+/// it depends on the data. A number that is not unique has the choice on which it depends, or is
+/// left out.
+///
+/// As data it is `{ value, verdict, fragile, sensitivity, reason, choice, no_finite_reaction }`:
+/// `value` is `null` where there is no number, `choice` is there if and only if the number is one
+/// of a choice, `reason` states why the verdict is undecided or why a number is missing for another
+/// reason than its verdict.
+///
+/// ```
+/// use solvability::{Value, Verdict};
+/// let open = Value::new(3.0, Verdict::NotUnique, None);
+/// assert_eq!((open.determined(), open.of_choice()), (None, None));
+/// assert_eq!(Value::unique(3.0).determined(), Some(3.0));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Value {
+    verdict: Verdict,
+    number: Number,
+    sensitivity: Option<Sensitivity>,
+}
+
+/// What there is of a number.
+#[derive(Clone, Debug, PartialEq)]
+enum Number {
+    /// The same in every solution.
+    Determined(f64),
+    /// One of many.
+    Chosen { value: f64, by: Label },
+    /// Left out, because it would be one of many.
+    Open,
+    /// None, whatever verdict and choice: the equations have solutions, but the motion does not
+    /// have finite reactions, or it is not decided whether it has.
+    NotFinite(Arc<NoFiniteReaction>),
+}
+
+impl Value {
+    /// A number of a solution. If it is not unique it is one `by` a choice; without a choice it is
+    /// left out.
+    #[must_use]
+    pub fn new(value: f64, verdict: Verdict, by: Option<&Label>) -> Self {
+        let number = match (verdict.is_unique(), by) {
+            (true, _) => Number::Determined(value),
+            (false, Some(by)) => Number::Chosen {
+                value,
+                by: by.clone(),
+            },
+            (false, None) => Number::Open,
+        };
+        Self {
+            verdict,
+            number,
+            sensitivity: None,
+        }
+    }
+
+    /// A number that is the same in every solution.
+    #[must_use]
+    pub fn unique(value: f64) -> Self {
+        Self::new(value, Verdict::Unique, None)
+    }
+
+    /// No number, whatever the verdict.
+    #[must_use]
+    pub fn not_finite(verdict: Verdict, why: Arc<NoFiniteReaction>) -> Self {
+        Self {
+            verdict,
+            number: Number::NotFinite(why),
+            sensitivity: None,
+        }
+    }
+
+    /// Adds how strongly it depends on the data. Only a determined number has a sensitivity.
+    pub fn add_sensitivity(&mut self, sensitivity: Option<Sensitivity>) {
+        self.sensitivity = sensitivity.filter(|_| self.determined().is_some());
+    }
+
+    /// The verdict.
+    #[must_use]
+    pub fn verdict(&self) -> &Verdict {
+        &self.verdict
+    }
+
+    /// The number, if it is determined.
+    #[must_use]
+    pub fn determined(&self) -> Option<f64> {
+        match self.number {
+            Number::Determined(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// The number and the choice on which it depends, if it is one of many.
+    #[must_use]
+    pub fn of_choice(&self) -> Option<(f64, &Label)> {
+        match &self.number {
+            Number::Chosen { value, by } => Some((*value, by)),
+            _ => None,
+        }
+    }
+
+    /// The number in the one solution to which it belongs, determined or chosen.
+    #[must_use]
+    pub fn in_solution(&self) -> Option<f64> {
+        self.determined()
+            .or(self.of_choice().map(|(value, _)| value))
+    }
+
+    /// Why there is no number although the verdict would allow one.
+    #[must_use]
+    pub fn no_finite_reaction(&self) -> Option<&NoFiniteReaction> {
+        match &self.number {
+            Number::NotFinite(why) => Some(why),
+            _ => None,
+        }
+    }
+
+    /// How strongly the number depends on the data, if that is known.
+    #[must_use]
+    pub fn sensitivity(&self) -> Option<&Sensitivity> {
+        self.sensitivity.as_ref()
+    }
+
+    /// Whether a small change of the data changes the number by more than the limit.
+    #[must_use]
+    pub fn is_fragile(&self) -> bool {
+        self.sensitivity
+            .as_ref()
+            .is_some_and(Sensitivity::is_fragile)
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.number {
+            Number::Determined(value) => fmt::Display::fmt(value, f),
+            Number::Chosen { value, by } => {
+                fmt::Display::fmt(value, f)?;
+                write!(f, " ({by})")
+            }
+            Number::Open => f.write_str(self.verdict.word()),
+            Number::NotFinite(why) => fmt::Display::fmt(why, f),
+        }
+    }
+}
+
+impl std::ops::Add for Value {
+    type Output = Self;
+
+    /// The sum of numbers of different parts: it is unique if both are, and one of many if one of
+    /// them is. The sensitivity of a sum is not that of its terms.
+    fn add(self, other: Self) -> Self {
+        let verdict = self.verdict.worse(other.verdict);
+        let number = match (self.number, other.number) {
+            (Number::NotFinite(why), _) | (_, Number::NotFinite(why)) => Number::NotFinite(why),
+            (Number::Open, _) | (_, Number::Open) => Number::Open,
+            (Number::Determined(a), Number::Determined(b)) => Number::Determined(a + b),
+            (Number::Determined(a), Number::Chosen { value, by })
+            | (
+                Number::Chosen { value, by },
+                Number::Determined(a) | Number::Chosen { value: a, .. },
+            ) => Number::Chosen {
+                value: value + a,
+                by,
+            },
+        };
+        Self {
+            verdict,
+            number,
+            sensitivity: None,
+        }
+    }
+}
+
+impl Serialize for Value {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        /// The data of a value in their order.
+        #[derive(Serialize)]
+        struct Data<'a> {
+            value: Option<f64>,
+            verdict: &'static str,
+            fragile: bool,
+            sensitivity: Option<f64>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            reason: Option<String>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            choice: Option<&'a Label>,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            no_finite_reaction: Option<&'a NoFiniteReaction>,
+        }
+        let reason = match (&self.number, &self.verdict) {
+            (Number::NotFinite(why), _) => Some(why.to_string()),
+            (_, Verdict::Undecided { reason }) => Some(reason.clone()),
+            _ => None,
+        };
+        let data = Data {
+            value: self.in_solution().filter(|value| value.is_finite()),
+            verdict: self.verdict.word(),
+            fragile: self.is_fragile(),
+            sensitivity: self.sensitivity().map(Sensitivity::stated),
+            reason,
+            choice: self.of_choice().map(|(_, by)| by),
+            no_finite_reaction: self.no_finite_reaction(),
+        };
+        data.serialize(to)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn undecided() -> Verdict {
+        Verdict::Undecided {
+            reason: "rounding".to_owned(),
+        }
+    }
+
+    fn unreachable() -> Arc<NoFiniteReaction> {
+        Arc::new(NoFiniteReaction {
+            reactions: Vec::new(),
+            rows: Vec::new(),
+            freedom: "up".to_owned(),
+            loads: vec!["gravity".to_owned()],
+            decided: true,
+        })
+    }
+
+    /// A number without a choice is there if and only if its verdict is unique.
+    #[test]
+    fn a_number_is_given_with_a_verdict_or_with_a_choice() {
+        let by = Label::new("supports");
+        for verdict in [Verdict::Unique, Verdict::NotUnique, undecided()] {
+            let unique = verdict.is_unique();
+            let alone = Value::new(2.0, verdict.clone(), None);
+            assert_eq!(alone.determined().is_some(), unique);
+            assert_eq!(alone.in_solution().is_some(), unique);
+            let chosen = Value::new(2.0, verdict, Some(&by));
+            assert_eq!(chosen.in_solution(), Some(2.0));
+            assert_eq!(chosen.of_choice().is_some(), !unique);
+        }
+    }
+
+    /// A sum is as good as its worst term.
+    #[test]
+    fn a_sum_has_the_worst_verdict_and_the_label_of_a_chosen_term() {
+        let by = Label::new("supports");
+        let chosen = || Value::new(2.0, Verdict::NotUnique, Some(&by));
+        let open = || Value::new(2.0, undecided(), None);
+        let none = || Value::not_finite(Verdict::Unique, unreachable());
+        let sum = Value::unique(1.0) + chosen();
+        assert_eq!(sum.of_choice(), Some((3.0, &by)));
+        assert_eq!((chosen() + chosen()).of_choice(), Some((4.0, &by)));
+        assert_eq!(
+            (Value::unique(1.0) + Value::unique(2.0)).determined(),
+            Some(3.0)
+        );
+        for sum in [chosen() + open(), open() + chosen()] {
+            assert_eq!(
+                (sum.in_solution(), sum.verdict()),
+                (None, &Verdict::NotUnique)
+            );
+        }
+        for sum in [none() + chosen(), open() + none()] {
+            assert!(sum.in_solution().is_none() && sum.no_finite_reaction().is_some());
+        }
+    }
+}

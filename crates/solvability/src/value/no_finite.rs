@@ -1,0 +1,43 @@
+//! Why reactions have no finite value.
+
+use model::ConstraintId;
+use model::words::listed;
+use serde::Serialize;
+
+/// Reactions of connected bodies that have no finite value, because the loads push along a freedom
+/// that second order excludes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct NoFiniteReaction {
+    /// The joints and drives.
+    #[serde(skip)]
+    pub reactions: Vec<ConstraintId>,
+    /// Their rows of C, from 0, ascending.
+    #[serde(skip)]
+    pub rows: Vec<usize>,
+    /// The freedom, in words.
+    pub freedom: String,
+    /// The loads that push along it: `gravity`, names of forces in backquotes, `inertia`.
+    pub loads: Vec<String>,
+    /// Whether it is proved that no finite reactions exist; otherwise it is not decided whether
+    /// they do. As data only where it is not.
+    #[serde(skip_serializing_if = "std::clone::Clone::clone")]
+    pub decided: bool,
+}
+
+impl std::fmt::Display for NoFiniteReaction {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (loads, freedom) = (listed(&self.loads), &self.freedom);
+        if self.decided {
+            write!(
+                f,
+                "no finite reaction exists: the loads ({loads}) push along a freedom that second order excludes ({freedom})"
+            )
+        } else {
+            write!(
+                f,
+                "whether finite reactions exist is not decided: the loads ({loads}) push along a freedom that second order restricts ({freedom})"
+            )
+        }
+    }
+}
