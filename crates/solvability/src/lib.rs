@@ -86,8 +86,9 @@ pub use analysis::{
 };
 pub use certificate::{certify, inseparable};
 pub use choices::{
-    Choice, ChoiceError, Chosen, Compliance, Distribution, Equations, Label, NormWeights,
-    ReactionValues, RowTerms, Solution, Value, minimise, solution,
+    CarriedChoices, CarriedSolution, Choice, ChoiceError, Chosen, Compliance, Distribution,
+    Equations, Label, NamedChoice, NormWeights, ReactionValues, RowTerms, Solution, Value,
+    minimise, solution,
 };
 pub use error::AnalysisError;
 pub use existence::{

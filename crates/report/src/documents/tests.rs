@@ -408,7 +408,8 @@ fn summary_has_the_keys_of_the_contract() {
             peaks: &[None, Some(peak), None, None, None, None],
         }),
         rows: 3,
-        files: &["trajectory.csv", "summary.json"],
+        files: &["trajectory.csv", "summary.json"].map(str::to_owned),
+        gaps: &[],
         plan: &plan,
         reactions: &analysis.reactions,
         sensitivities: &sensitivities,
@@ -480,7 +481,8 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     let columns = columns.expect("all of them");
     let run = |ending, stretches| Run {
         rows: 3,
-        files: &["trajectory.csv", "summary.json"],
+        files: &["trajectory.csv", "summary.json"].map(str::to_owned),
+        gaps: &[],
         plan: &plan,
         reactions: &analysis.reactions,
         sensitivities: &sensitivities,
