@@ -110,7 +110,7 @@ impl Analysis {
     /// The reactions for a choice.
     fn distribution(&self, py: Python<'_>, choose: Choose) -> PyResult<String> {
         self.ask(py, |configuration| {
-            let choice = choose.choice(configuration)?;
+            let choice = choose.choice(&|name| configuration.reaction(name))?;
             let distribution = configuration.distribution(&choice)?;
             plain(&DistributionDocument::new(&distribution, &[]))
         })

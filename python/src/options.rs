@@ -3,10 +3,10 @@
 use std::num::NonZeroUsize;
 
 use pfaff::ConfigurationAnalysis;
-use pfaff::Overrides;
+use pfaff::{Overrides, StudyError};
 use pfaff::dynamics::plan::{Reactions, Rows};
 use pfaff::dynamics::{Method, Wanted};
-use pfaff::model::{Mechanism, System, Tolerance};
+use pfaff::model::{ConstraintId, Mechanism, System, Tolerance};
 use pfaff::scene::nearest;
 use pfaff::solvability::{Allowed, Choice, Compliance, NormWeights};
 use pyo3::prelude::*;
@@ -153,7 +153,7 @@ pub(crate) enum Choose {
 impl Choose {
     pub(crate) fn choice(
         &self,
-        configuration: &ConfigurationAnalysis<'_>,
+        reaction: &dyn Fn(&str) -> Result<ConstraintId, StudyError>,
     ) -> Result<Choice, Fault> {
         match self {
             Self::Arm(None) => Ok(Choice::MinimumNorm(NormWeights::NEWTON_METRE)),
@@ -175,7 +175,7 @@ impl Choose {
                         )));
                     }
                     Ok(Compliance {
-                        reaction: configuration.reaction(name)?,
+                        reaction: reaction(name)?,
                         along: [*along; 3],
                         rotation: *rotation,
                     })

@@ -3,6 +3,8 @@
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pfaff::refusal::Refusal;
+use pfaff::report::ReactionColumn;
+use pfaff::solvability::Stretches;
 use pyo3::prelude::*;
 
 use crate::fault::exception;
@@ -18,6 +20,8 @@ pub(crate) struct Recorded {
     pub(crate) v: Vec<f64>,
     pub(crate) trajectory: Vec<f64>,
     pub(crate) reactions: Vec<f64>,
+    /// The same numbers by each choice, with its name.
+    pub(crate) chosen: Vec<(String, Vec<f64>)>,
     pub(crate) columns: Vec<Column>,
     pub(crate) reaction_columns: Vec<Column>,
     /// Their names in `reactions.csv`.
@@ -25,6 +29,27 @@ pub(crate) struct Recorded {
     pub(crate) document: String,
     /// Why it stopped before its end.
     pub(crate) stopped: Option<Refusal>,
+}
+
+impl Recorded {
+    /// Gives the numbers of choices where the model determines none, and otherwise those of the
+    /// run; numbers of the run that it does not determine are NaN unless `are_told`.
+    pub(crate) fn tell_determined(
+        &mut self,
+        columns: &[ReactionColumn],
+        stretches: &Stretches,
+        are_told: bool,
+    ) {
+        let width = columns.len().max(1);
+        for (k, number) in self.reactions.iter_mut().enumerate() {
+            let (t, column) = (self.t[k / width], &columns[k % width]);
+            if column.quantity.is_determined(stretches, t) {
+                self.chosen.iter_mut().for_each(|(_, own)| own[k] = *number);
+            } else if !are_told {
+                *number = f64::NAN;
+            }
+        }
+    }
 }
 
 /// A run. Arrays have a row for each time.
@@ -40,6 +65,8 @@ pub(crate) struct Run {
     trajectory: Py<PyArray2<f64>>,
     #[pyo3(get)]
     reactions: Py<PyArray2<f64>>,
+    /// Names and numbers of choices.
+    chosen: Vec<(String, Py<PyArray2<f64>>)>,
     #[pyo3(get)]
     columns: Vec<Column>,
     #[pyo3(get)]
@@ -59,6 +86,11 @@ impl Run {
             v: by_rows(py, recorded.v, n),
             trajectory: by_rows(py, recorded.trajectory, n),
             reactions: by_rows(py, recorded.reactions, n),
+            chosen: recorded
+                .chosen
+                .into_iter()
+                .map(|(name, numbers)| (name, by_rows(py, numbers, n)))
+                .collect(),
             t: recorded.t.into_pyarray(py).unbind(),
             columns: recorded.columns,
             reaction_columns: recorded.reaction_columns,
@@ -71,6 +103,13 @@ impl Run {
 
 #[pymethods]
 impl Run {
+    /// The columns of `reactions` by each choice, with its name.
+    fn chosen(&self, py: Python<'_>) -> Vec<(String, Py<PyArray2<f64>>)> {
+        let each = self.chosen.iter();
+        each.map(|(name, numbers)| (name.clone(), numbers.clone_ref(py)))
+            .collect()
+    }
+
     /// The exception that says why the run stopped before its end, if it did so by itself.
     fn stopped(&self, py: Python<'_>) -> Option<Py<PyAny>> {
         let refusal = self.stopped.as_ref()?;

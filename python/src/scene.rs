@@ -23,7 +23,7 @@ use crate::analysis::{Analysis, plain};
 use crate::fault::{Fault, guarded, wrong};
 use crate::functions::Functions;
 use crate::hearing::{Hearing, heard};
-use crate::options::{RunOptions, rows_from_zero, tolerance, unknown};
+use crate::options::{Choose, RunOptions, rows_from_zero, tolerance, unknown};
 use crate::run::{Column, Recorded, Run, by_rows};
 
 pub(crate) static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standard);
@@ -164,7 +164,7 @@ impl Scene {
     fn recorded(
         &self,
         (options, functions): (&RunOptions, Functions),
-        numbers_of_choice: bool,
+        (numbers_of_choice, choices): (bool, &[Choose]),
         hearing: &Arc<Hearing>,
         [on_event, on_row]: [Option<&Py<PyAny>>; 2],
     ) -> Result<Recorded, Fault> {
@@ -178,28 +178,42 @@ impl Scene {
             own = self.with_functions(functions, of_scene, hearing)?;
             &own
         };
-        options.check_names(&study.analyse(0.0, None).map_err(|e| self.fault(e))?)?;
+        let start = study.analyse(0.0, None).map_err(|e| self.fault(e))?;
+        options.check_names(&start)?;
+        let mut wanted = options.wanted();
+        for choice in choices {
+            let choice = choice.choice(&|name| study.reaction(name))?;
+            let named = start.named(&choice).map_err(|e| self.fault(e))?;
+            wanted.choices.push(named);
+        }
         let motion = study.options_with(&overrides);
         let mut motion = motion.ok_or_else(|| self.fault(StudyError::NoEnd))?;
         motion.output_step = options.output_step.unwrap_or(motion.output_step);
         let mechanism = &study.prepared.mechanism;
         let mut trajectory = Trajectory::new(mechanism);
+        let names = wanted.choices.iter().map(|named| named.label.to_string());
         let mut rows = Recorded {
+            chosen: names.map(|name| (name, Vec::new())).collect(),
             columns: trajectory.columns().iter().map(column).collect(),
             ..Recorded::default()
         };
         let space = mechanism.space();
         let stop = || hearing.ends();
-        let ended = study.show(&motion, &options.wanted(), &stop, |sample, numbers| {
+        let ended = study.show(&motion, &wanted, &stop, |sample, numbers| {
             rows.t.push(sample.t);
             rows.q.extend(sample.q);
             rows.v.extend(sample.v);
             trajectory.extend(&mut rows.trajectory, sample.t, sample.q, sample.v);
-            for reaction in numbers.reactions.as_chosen() {
-                rows.reactions.extend(reaction.components(space));
-                rows.reactions.extend(reaction.component);
+            let all = std::iter::once(&mut rows.reactions);
+            let all = all.chain(rows.chosen.iter_mut().map(|(_, own)| own));
+            let of_each = std::iter::once(numbers).chain(&numbers.choices);
+            for (own, numbers) in all.zip(of_each) {
+                for reaction in numbers.reactions.as_chosen() {
+                    own.extend(reaction.components(space));
+                    own.extend(reaction.component);
+                }
+                own.extend(numbers.groups.as_chosen());
             }
-            rows.reactions.extend(numbers.groups.as_chosen());
             for event in sample.events {
                 if let Some(on_event) = on_event {
                     let document = plain(&EventDocument::from(event)).unwrap_or_default();
@@ -228,13 +242,8 @@ impl Scene {
         };
         rows.reaction_columns = columns.iter().map(|c| column(&c.column)).collect();
         rows.reaction_names = columns.iter().map(ReactionColumn::name).collect();
-        if let Some(stretches) = stretches.filter(|_| !numbers_of_choice) {
-            let each = rows.reactions.chunks_mut(columns.len().max(1));
-            for (t, row) in rows.t.iter().zip(each) {
-                let numbers = row.iter_mut().zip(&columns);
-                let unknown = numbers.filter(|(_, c)| !c.quantity.is_determined(&stretches, *t));
-                unknown.for_each(|(number, _)| *number = f64::NAN);
-            }
+        if let Some(stretches) = stretches {
+            rows.tell_determined(&columns, &stretches, numbers_of_choice);
         }
         rows.stopped = stopped.map(|error| Refusal::of((&self.name, &self.text), error.into()));
         rows.document = json(&document)?;
@@ -411,16 +420,17 @@ impl Scene {
     }
 
     /// Runs the scene. With `numbers_of_choice` numbers that are not determined on their stretch of
-    /// the run are those of the rows that the run keeps, otherwise NaN. `drives` are functions of
-    /// time, measure and rate in place of laws, `forces` functions of the states of bodies, each
-    /// with its name.
-    #[pyo3(signature = (options, numbers_of_choice, on_event, on_row, drives, forces))]
+    /// the run are those of the rows that the run keeps, otherwise NaN; `choices` give the others in
+    /// arrays of their own. `drives` are functions of time, measure and rate in place of laws,
+    /// `forces` functions of the states of bodies, each with its name.
+    #[pyo3(signature = (options, numbers_of_choice, choices, on_event, on_row, drives, forces))]
     #[allow(clippy::too_many_arguments)]
     fn simulate(
         &self,
         py: Python<'_>,
         options: RunOptions,
         numbers_of_choice: bool,
+        choices: Vec<Choose>,
         on_event: Option<Py<PyAny>>,
         on_row: Option<Py<PyAny>>,
         drives: Vec<(String, Py<PyAny>)>,
@@ -430,7 +440,8 @@ impl Scene {
             let hearing = Arc::new(Hearing::new());
             let callbacks = [on_event.as_ref(), on_row.as_ref()];
             let asked = (&options, Functions { drives, forces });
-            let recorded = self.recorded(asked, numbers_of_choice, &hearing, callbacks);
+            let chosen = (numbers_of_choice, choices.as_slice());
+            let recorded = self.recorded(asked, chosen, &hearing, callbacks);
             match hearing.raised() {
                 Some(raised) => Err(raised.into()),
                 None => recorded,
@@ -441,13 +452,14 @@ impl Scene {
 
     /// Runs the scene and writes the files of the command into a directory; returns the summary.
     /// With `until` the run ends at the row of this time (s), as one that was asked to end there.
-    #[pyo3(signature = (directory, options, until, drives, forces))]
+    #[pyo3(signature = (directory, options, choices, until, drives, forces))]
     #[allow(clippy::too_many_arguments)]
     fn simulate_into(
         &self,
         py: Python<'_>,
         directory: PathBuf,
         options: RunOptions,
+        choices: Vec<Choose>,
         until: Option<f64>,
         drives: Vec<(String, Py<PyAny>)>,
         forces: Vec<(String, Py<PyAny>)>,
@@ -461,6 +473,9 @@ impl Scene {
             if let (Some(step), Some(motion)) = (options.output_step, &mut study.options) {
                 motion.output_step = step;
             }
+            let choices = choices.iter();
+            let choices = choices.map(|choice| choice.choice(&|name| study.reaction(name)));
+            study.choices = choices.collect::<Result<_, _>>()?;
             let place = OutputDirectory::create(&directory).and_then(OutputDirectory::exclusive);
             let place = place.map_err(|e| self.fault(e.into()))?;
             let origin = Origin {

@@ -88,6 +88,40 @@ def test_what_is_not_unique_is_not_a_number() -> None:
     assert np.isfinite(one.reaction("right").force).all()
 
 
+def test_choices_of_a_run(tmp_path: Path) -> None:
+    scene = pfaff.Scene.from_string(SLEIGH)
+    soft = {"left": 1e-6, "right": (3e-6, 1e-3)}
+    asked = ["minimum-norm", soft, [1], "minimum-norm:length=0.5"]
+    run = scene.simulate(choose=asked)
+    assert np.isnan(run.reaction("left")["N"]).all()
+    names = [choice.name for choice in run.choices]
+    assert names == [entry["name"] for entry in run.document["choice"]]
+    assert names[0].startswith("minimum norm") and "`right` 3e-6 m/N" in names[1]
+    left, right = (
+        [choice.reaction(name)["N"] for choice in run.choices] for name in ("left", "right")
+    )
+    # Springs in parallel share v·omega·m by their stiffness.
+    for k, share in enumerate([1 / 2, 3 / 4, 0.0, 1 / 2]):
+        np.testing.assert_allclose(np.abs(left[k]), share * 1.5, rtol=1e-6)
+        np.testing.assert_allclose(np.abs(left[k] + right[k]), 1.5, rtol=1e-6)
+        torque = run.choices[k].reaction("left").torque
+        np.testing.assert_array_equal(torque, run.reaction("left").torque)
+    at_end = scene.analyze(float(run.t[-1])).reactions({"left": 1e-6, "right": 3e-6})
+    for name in ("Fx", "Fy"):
+        own = run.choices[1].reaction("left")[name][-1]
+        assert abs(own - at_end["left"][name]) < 1e-7
+    # A single choice is that of the arrays of the run.
+    alone = scene.simulate(choose=soft)
+    np.testing.assert_array_equal(alone.reactions, run.choices[1].reactions)
+    written = scene.simulate_into(tmp_path, choose=asked[:2])
+    assert {"choice.csv", "choice_2.csv"} <= set(written["files"])
+    table = np.genfromtxt(tmp_path / "choice_2.csv", delimiter=",", skip_header=1)
+    np.testing.assert_array_equal(table[:, 1:], alone.reactions)
+    for wrong in ("least", [soft, "kept-rows"], [[9]], {"lift": 1e-6}):
+        with pytest.raises(pfaff.Error):
+            scene.simulate(choose=wrong)
+
+
 def test_verdicts_of_a_run_are_those_of_its_stretch() -> None:
     """The cart of the book: at the start across is y; as it turns, x and y both have a share."""
     cart = (

@@ -10,6 +10,7 @@ mod book;
 mod carried;
 mod cases;
 mod choices;
+mod chosen_runs;
 mod deletions;
 mod drives_that_jump;
 mod equilibrium;

@@ -46,7 +46,7 @@ pub use options::{FORMULATION, Method, MotionOptions, RowChoice, Stabilisation};
 pub use plan::{Plan, Wanted};
 pub use prepare::{Prepared, prepare, prepare_after, start_velocity, unmovable};
 pub use run::{
-    ComponentSummary, DroppedRows, Failure, Reduced, Sample, Stop, Summary, simulate,
-    simulate_until,
+    ChosenReactions, ComponentSummary, DroppedRows, Failure, Reduced, Sample, Stop, Summary,
+    simulate, simulate_until,
 };
 pub use solve::Misfit;

@@ -18,7 +18,7 @@ use crate::code::NoCode;
 use crate::error::MotionError;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
-use solvability::Group;
+use solvability::{Group, NamedChoice};
 
 pub use component::ComponentPlan;
 pub use decided::{Decided, Line};
@@ -38,6 +38,8 @@ pub struct Wanted {
     pub reactions: Reactions,
     /// Groups whose verdicts are requested besides.
     pub groups: Vec<Group>,
+    /// Choices by which all reactions are requested besides, which are possible at the start.
+    pub choices: Vec<NamedChoice>,
 }
 
 impl Default for Wanted {
@@ -48,6 +50,7 @@ impl Default for Wanted {
             accelerations: true,
             reactions: Reactions::All,
             groups: Vec::new(),
+            choices: Vec::new(),
         }
     }
 }
@@ -116,6 +119,8 @@ pub struct Plan<'a> {
     pub accelerations: Decided<bool>,
     /// Groups whose verdicts are computed; none without reactions.
     pub groups: Vec<Group>,
+    /// Choices by which reactions are computed at rows of output.
+    pub choices: Vec<NamedChoice>,
     /// Its components, or the whole mechanism as the only one.
     pub components: Vec<ComponentPlan<'a>>,
 }
@@ -159,6 +164,7 @@ impl<'a> Plan<'a> {
                 Reactions::None => Vec::new(),
                 _ => wanted.groups.clone(),
             },
+            choices: wanted.choices.clone(),
             components,
         })
     }

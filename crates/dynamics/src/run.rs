@@ -33,7 +33,7 @@ use component::run_component;
 pub use caller::{Stop, Watch};
 pub use reduced::Reduced;
 pub(crate) use reduced::derivatives;
-pub use sample::Sample;
+pub use sample::{ChosenReactions, Sample};
 pub use summary::{ComponentSummary, DroppedRows, Failure, Summary};
 
 /// Runs a prepared mechanism from t = 0 and passes rows at 0, at every output step and at the end

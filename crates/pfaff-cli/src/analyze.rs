@@ -3,7 +3,6 @@
 
 mod along;
 mod ask;
-mod choice;
 mod counts;
 mod data;
 mod deletions;

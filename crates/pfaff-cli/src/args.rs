@@ -203,6 +203,9 @@ pub(crate) struct Simulate {
     pub(crate) max_steps: Option<u64>,
     #[command(flatten)]
     pub(crate) way: MotionArguments,
+    /// Choose the numbers of choice.csv (choice_2.csv, …): as of analyze; repeatable
+    #[arg(long, value_name = "CHOICE")]
+    pub(crate) choose: Vec<String>,
     #[command(flatten)]
     pub(crate) known: Known,
     #[command(flatten)]

@@ -3,6 +3,7 @@
 mod analyze;
 mod args;
 mod check;
+mod choice;
 pub mod console;
 mod diff;
 mod equilibrium;

@@ -110,7 +110,11 @@ impl Failure {
 ///
 /// # Errors
 /// If it is not a place for results.
-pub fn directory(path: &Path, names: &[&str], force: bool) -> Result<OutputDirectory, Failure> {
+pub fn directory(
+    path: &Path,
+    names: &[impl AsRef<str>],
+    force: bool,
+) -> Result<OutputDirectory, Failure> {
     let opened = OutputDirectory::create(path).and_then(OutputDirectory::exclusive);
     let directory = opened.map_err(|e| unwritten(&e))?;
     if !force {

@@ -2,19 +2,23 @@
 
 use std::ops::ControlFlow;
 
+use pfaff::model::System;
 use pfaff::model::words::{listed, rounded};
-use pfaff::report::documents::{EndedDocument, MisfitDocument, RunReactionDocument};
-use pfaff::study::FILES;
+use pfaff::report::documents::{
+    ChoiceDocument, EndedDocument, MisfitDocument, RunReactionDocument, choice_file,
+};
+use pfaff::study::{files, files_in};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::report::{Origin, OutputDirectory, Provenance, RunDocument};
 use pfaff::{Overrides, StudyError};
 
 use crate::args::Simulate;
+use crate::choice::choices;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::{BY_REQUEST, Interrupt};
-use crate::output::{Failure, Outcome, directory, json, wrapped};
+use crate::output::{Failure, Outcome, count, directory, json, wrapped};
 use crate::work_precision::provenance;
 
 /// Largest error of the energy balance without a warning, as a fraction of the largest kinetic
@@ -30,7 +34,10 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     let source =
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     let overrides = overrides(arguments)?;
-    let study = source.study(&overrides, arguments.resources)?;
+    let mut study = source.study(&overrides, arguments.resources)?;
+    let rows = study.prepared.mechanism.layout().rows();
+    let reaction = |name: &str| study.reaction(name);
+    study.choices = choices(&arguments.choose, &source, (rows, &reaction))?;
     let memory = study
         .memory(source.text.len())
         .map_err(|e| source.failure(e))?;
@@ -38,8 +45,10 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     let Some(options) = &study.options else {
         return Err(source.failure(StudyError::NoEnd));
     };
-    let directory = directory(&arguments.place.out, &FILES, arguments.place.force)?;
-    let interrupt = Interrupt::listen_with(last_act(&directory, study.scene.name()))?;
+    let own = files(study.choices.len());
+    let directory = directory(&arguments.place.out, &own, arguments.place.force)?;
+    let ended = last_act(&directory, study.scene.name(), study.choices.len());
+    let interrupt = Interrupt::listen_with(ended)?;
     // It hides itself if standard error is not a terminal.
     let bar = ProgressBar::new(TICKS);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} t = {msg}, {eta} left") {
@@ -75,7 +84,12 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
 }
 
 /// The last act of a run that has to be ended: its tables and a summary.
-fn last_act(directory: &OutputDirectory, scene: &str) -> impl Fn() -> String + Send + Sync + use<> {
+fn last_act(
+    directory: &OutputDirectory,
+    scene: &str,
+    choices: usize,
+) -> impl Fn() -> String + Send + Sync + use<> {
+    let all = files_in(directory, choices);
     let directory = directory.clone();
     let (error, kept) = ("interrupted", "kept: whole rows of the tables");
     let document = json(&EndedDocument {
@@ -87,7 +101,7 @@ fn last_act(directory: &OutputDirectory, scene: &str) -> impl Fn() -> String + S
     let summary = document.unwrap_or_default();
     move || {
         let place = directory.path().display().to_string();
-        if directory.abandon_as("summary.json", summary.as_bytes(), &FILES) {
+        if directory.abandon_as("summary.json", summary.as_bytes(), &all) {
             format!("{error}; {kept} in `{place}`; summary.json says that they are partial")
         } else {
             format!("{error}; nothing was written into `{place}`")
@@ -200,17 +214,27 @@ fn open_reactions(d: &RunDocument) -> String {
         ));
     }
     let open = of("not_unique");
-    let Some(choice) = d.choice.first().filter(|_| !open.is_empty()) else {
+    let Some(solutions) = solutions(&d.choice).filter(|_| !open.is_empty()) else {
         return text;
     };
-    let more = match d.choice.len() {
-        0 | 1 => "",
-        _ => " at first; summary.json has the others",
-    };
     text.push_str(&format!(
-        "not determined by the model: {}. In reactions.csv only what is determined has numbers; choice.csv has one solution of many ({choice}{more}).\n",
+        "not determined by the model: {}. In reactions.csv only what is determined has numbers; {solutions}.\n",
         listed(&open),
     ));
+    for (k, choice) in d.choice.iter().enumerate() {
+        if let Some(gap) = &choice.gap {
+            text.push_str(&wrapped(
+                "",
+                &format!(
+                    "warning: {} has empty cells in {}, the first at t = {} s: {}",
+                    choice.file.clone().unwrap_or_else(|| choice_file(k)),
+                    count(gap.rows, "row", "rows"),
+                    rounded(gap.first),
+                    gap.reason
+                ),
+            ));
+        }
+    }
     let some: Vec<String> = open
         .iter()
         .filter_map(|name| partly(name, d.reactions.get(name)?))
@@ -222,6 +246,27 @@ fn open_reactions(d: &RunDocument) -> String {
         ));
     }
     text
+}
+
+/// Which tables have which solutions, in words.
+fn solutions(choices: &[ChoiceDocument]) -> Option<String> {
+    let [first, others @ ..] = choices else {
+        return None;
+    };
+    if first.file.is_none() {
+        let more = match others {
+            [] => "",
+            _ => " at first; summary.json has the others",
+        };
+        return Some(format!(
+            "choice.csv has one solution of many ({first}{more})"
+        ));
+    }
+    let each = choices.iter().filter_map(|choice| {
+        let file = choice.file.as_ref()?;
+        Some(format!("{file} has one solution of many ({choice})"))
+    });
+    Some(each.collect::<Vec<_>>().join("; "))
 }
 
 /// The components of a reaction that are determined on parts of the run.

@@ -99,15 +99,19 @@ impl Request<'_> {
         let directory = directory(self.out, &names, self.force)?;
         let [csv, svg, page_name] = FILES;
         let file = directory.file(csv).map_err(|e| unwritten(&e))?;
-        let table = WorkPrecisionTable::new(file).map_err(|e| unfinished(&e))?;
-        let (document, table) = self.compare(&directory, table)?;
-        let file = table.finish().map_err(|e| unfinished(&e))?;
-        let finished = if document.partial {
-            file.finish_partial()
-        } else {
-            file.finish()
-        };
-        finished.map_err(|e| unwritten(&e))?;
+        let mut table = WorkPrecisionTable::new(file).map_err(|e| unfinished(&e))?;
+        let mut rows = 0;
+        let compared = self.compare(&directory, (&mut table, &mut rows));
+        // Rows of scenes before one that cannot be compared are kept.
+        if compared.is_ok() || rows > 0 {
+            let file = table.finish().map_err(|e| unfinished(&e))?;
+            let finished = match &compared {
+                Ok(document) if !document.partial => file.finish(),
+                _ => file.finish_partial(),
+            };
+            finished.map_err(|e| unwritten(&e))?;
+        }
+        let document = compared?;
         let figure = figures::work_precision(&document.scenes);
         let page = work_precision_page(&document, &figure);
         for (name, text) in [(svg, &figure), (page_name, &page)] {
@@ -134,12 +138,13 @@ impl Request<'_> {
         }
     }
 
-    /// Makes all runs; if a stop is requested, returns the runs so far.
+    /// Makes all runs, and counts the rows of the table; if a stop is requested, returns the runs
+    /// so far.
     fn compare(
         &self,
         directory: &OutputDirectory,
-        mut table: WorkPrecisionTable<OutputFile>,
-    ) -> Result<(WorkPrecisionDocument, WorkPrecisionTable<OutputFile>), Failure> {
+        (table, rows): (&mut WorkPrecisionTable<OutputFile>, &mut usize),
+    ) -> Result<WorkPrecisionDocument, Failure> {
         let ended = directory.clone();
         let interrupt = Interrupt::listen_with(move || {
             let place = ended.path().display();
@@ -164,6 +169,7 @@ impl Request<'_> {
                     "{}: {} at {:.0e}",
                     row.scene, row.curve.method, row.tolerance
                 ));
+                *rows += 1;
                 table.row(row).map_err(Interruption::Table)
             };
             let comparison = subject
@@ -179,13 +185,12 @@ impl Request<'_> {
             }
         }
         bar.finish_and_clear();
-        let document = WorkPrecisionDocument {
+        Ok(WorkPrecisionDocument {
             provenance: provenance(),
             partial,
             summary: overview(&scenes),
             scenes,
-        };
-        Ok((document, table))
+        })
     }
 }
 

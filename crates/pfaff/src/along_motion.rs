@@ -260,6 +260,7 @@ impl Study {
             accelerations: !many,
             reactions: Reactions::None,
             groups: Vec::new(),
+            choices: Vec::new(),
         };
         let options = MotionOptions {
             t_end,

@@ -168,6 +168,7 @@ impl AssembledScene {
             scene,
             prepared,
             options,
+            choices: Vec::new(),
         })
     }
 

@@ -1,5 +1,5 @@
-//! Compares reactions that are not unique along a run for several choices: that of the run, the
-//! least norm, and sets of rows without reaction. Each set of joints that share cycles is treated
+//! Compares reactions that are not unique along a run for several choices: that of the run or the
+//! requested ones, the least norm, and sets of rows without reaction. Each set of joints that share cycles is treated
 //! separately, so the work grows with the redundant sets and not with the mechanism.
 //!
 //! All solutions at an instant are `λ + Z·y`. λ is that of the run; Z belongs to the configuration
@@ -41,12 +41,13 @@ const VISIBLE: f64 = 1e-9;
 /// in the plane.
 const PLANE: f64 = 1e-9;
 
-/// The comparisons, and sentences on what is not compared.
+/// The comparisons, and sentences on what is not compared. `own` are the names of the choices that
+/// the frames contain: of the requested ones, or of that of the run.
 pub(crate) fn compare(
     mechanism: &Mechanism,
     recording: &Recording,
     open: impl Fn(usize) -> bool,
-    choice: Option<String>,
+    own: &[String],
 ) -> (Vec<Comparison>, Vec<String>) {
     let Some(first) = recording.frames.first() else {
         return (Vec::new(), Vec::new());
@@ -78,12 +79,8 @@ pub(crate) fn compare(
             left_out.push(names());
             continue;
         }
-        let own = match &choice {
-            Some(choice) => format!("this run: {choice}"),
-            None => "this run".to_owned(),
-        };
         match Set::new(&part, recording) {
-            Some(set) => compared.push(set.compare(recording, &own, &open)),
+            Some(set) => compared.push(set.compare(recording, own, &open)),
             None => left_out.push(names()),
         }
     }
@@ -142,7 +139,7 @@ impl<'a> Set<'a> {
     fn compare(
         &self,
         recording: &Recording,
-        own: &str,
+        own: &[String],
         open: impl Fn(usize) -> bool,
     ) -> Comparison {
         let labels = &self.part.mechanism.layout().labels;
@@ -154,7 +151,8 @@ impl<'a> Set<'a> {
             let word = if rows.len() == 1 { "row" } else { "rows" };
             format!("no reaction in {word} {}", rows.join(", "))
         };
-        let labels = [own.to_owned(), "least norm (N, N·m)".to_owned()].into_iter();
+        let labels = own.iter().cloned();
+        let labels = labels.chain(["least norm (N, N·m)".to_owned()]);
         let labels = labels.chain(self.eliminations.iter().map(without));
         let mut choices: Vec<ComparedChoice> = labels
             .map(|label| ComparedChoice {
@@ -210,13 +208,11 @@ impl<'a> Set<'a> {
     }
 
     fn instant(&self, s: &mut Scratch, frame: &Frame) -> Instant {
-        let lambda: Vec<f64> = self
-            .part
-            .places
-            .rows
-            .iter()
-            .map(|&i| frame.multipliers[i])
-            .collect();
+        let of_part = |all: &[f64]| -> Vec<f64> {
+            let rows = self.part.places.rows.iter();
+            rows.map(|&i| all[i]).collect()
+        };
+        let lambda = of_part(&frame.multipliers);
         let q = self.coordinates(frame);
         let decision = self.decide(s, frame);
         let mechanism = &self.part.mechanism;
@@ -225,7 +221,13 @@ impl<'a> Set<'a> {
             .constraint_ids()
             .map(|id| mechanism.reactions(s).wrench_map(id))
             .collect();
-        let own = self.wrenches(&maps, &lambda);
+        let own: Vec<Vec<Vec<f64>>> = match frame.chosen.as_slice() {
+            [] => vec![self.wrenches(&maps, &lambda)],
+            chosen => {
+                let each = chosen.iter().map(|all| of_part(all));
+                each.map(|lambda| self.wrenches(&maps, &lambda)).collect()
+            }
+        };
         let n = maps.len();
         let Some(decision) = decision else {
             return Instant {
@@ -235,7 +237,10 @@ impl<'a> Set<'a> {
         };
         if decision.redundancy == 0 {
             return Instant {
-                values: vec![own; 2 + self.eliminations.len()],
+                values: vec![
+                    self.wrenches(&maps, &lambda);
+                    own.len() + 1 + self.eliminations.len()
+                ],
                 freedom: vec![Freedom::NONE; n],
             };
         }
@@ -258,8 +263,9 @@ impl<'a> Set<'a> {
         let others = others.map(|lambda| lambda.map(|lambda| self.wrenches(&maps, &lambda)));
         let others: Vec<Option<Vec<Vec<f64>>>> = others.collect();
         // A single choice would look like a unique number.
-        let own = others.iter().any(Option::is_some).then_some(own);
-        let values = std::iter::once(own).chain(others);
+        let are_several = own.len() > 1 || others.iter().any(Option::is_some);
+        let own = own.into_iter().map(|own| are_several.then_some(own));
+        let values = own.chain(others);
         Instant {
             values: values
                 .map(|v| v.unwrap_or_else(|| self.unknown()))

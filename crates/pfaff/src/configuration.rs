@@ -15,7 +15,7 @@ use scene::Scene;
 use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Continuation, Contradiction, Distribution,
     EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GroupVerdict, MomentVerdict,
-    NoFiniteReaction, Numbers, Proposals, Questions, ReactionNumber, ReactionValues,
+    NamedChoice, NoFiniteReaction, Numbers, Proposals, Questions, ReactionNumber, ReactionValues,
     ReactionVerdict, Rows, Sensitivities, Sensitivity, Solution, State, UnitCheck, analyse_decided,
     analyse_dropping, analyse_with_progress, generic, is_locked, no_finite_reactions, second_order,
     solution,
@@ -460,6 +460,18 @@ impl<'a> ConfigurationAnalysis<'a> {
         let mut found = self.questions.determined_reactions(&self.solution()?)?;
         self.sensitivities()?.add_to(&mut found);
         Ok(found)
+    }
+
+    /// A choice with its name, which is possible at this configuration.
+    ///
+    /// # Errors
+    /// As [`Self::distribution`].
+    pub fn named(&self, choice: &Choice) -> Result<NamedChoice, StudyError> {
+        let label = self.distribution(choice)?.label;
+        Ok(NamedChoice {
+            label,
+            choice: choice.clone(),
+        })
     }
 
     /// Which components are unique and which depend on a choice, determined by a change of units

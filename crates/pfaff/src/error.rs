@@ -35,6 +35,11 @@ pub enum StudyError {
     /// Neither the scene nor the caller states the end of the run.
     #[error("the scene has no `[simulate]` with `t_end`, and no last time was given")]
     NoEnd,
+    /// Choices are requested of a run that writes no reactions.
+    #[error(
+        "the choices have no table: `[output] reactions` of the scene is false; leave out the choices, or write reactions"
+    )]
+    NoReactions,
     /// A combination cannot be parsed.
     #[error("`{text}`: {error}")]
     Combination {
@@ -133,6 +138,7 @@ impl StudyError {
                 .map_or(const { Code::new(120) }, BuildError::code),
             Self::SingularStart { .. } => const { Code::new(211) },
             Self::NoEnd => const { Code::new(214) },
+            Self::NoReactions => const { Code::new(312) },
             Self::Combination { .. } => const { Code::new(311) },
             Self::UnknownReaction { .. } | Self::UnknownRow { .. } => const { Code::new(310) },
             Self::InactiveReaction { .. } => const { Code::new(317) },
@@ -200,6 +206,7 @@ impl StudyError {
             | Self::Build(_)
             | Self::SingularStart { .. }
             | Self::NoEnd
+            | Self::NoReactions
             | Self::Combination { .. }
             | Self::UnknownReaction { .. }
             | Self::InactiveReaction { .. }

@@ -44,6 +44,8 @@ pub(crate) struct ReportBuilder<'a> {
     /// Whether reactions are collected.
     has_reactions: bool,
     compares: bool,
+    /// Whether other choices are requested than the rows that the run keeps.
+    has_choices: bool,
     ends_only: bool,
 }
 
@@ -53,11 +55,16 @@ impl RowSink for ReportBuilder<'_> {
             return Ok(ControlFlow::Continue(()));
         }
         let (mut reactions, mut multipliers) = (Vec::new(), Vec::new());
+        let mut chosen = Vec::new();
         if self.has_reactions {
             reactions = sample.reactions()?.as_chosen().to_vec();
         }
         if self.compares && self.has_reactions {
             multipliers = sample.multipliers()?.as_chosen().to_vec();
+            if !sample.choices.is_empty() {
+                let all = sample.chosen()?.into_iter();
+                chosen.extend(all.map(|found| found.multipliers.as_chosen().to_vec()));
+            }
         }
         self.recording.frames.push(Frame {
             t: sample.t,
@@ -66,6 +73,7 @@ impl RowSink for ReportBuilder<'_> {
             work: sample.work,
             reactions,
             multipliers,
+            chosen,
         });
         Ok(ControlFlow::Continue(()))
     }
@@ -88,10 +96,15 @@ impl<'a> ReportBuilder<'a> {
             scene,
             prepared,
             options: asked,
-            recording: Recording::new(options.t_end, rows, numbers_per_row(mechanism)),
+            recording: Recording::new(
+                options.t_end,
+                rows,
+                numbers_per_row(mechanism) + plan.choices.len() * mechanism.layout().rows(),
+            ),
             ends_only: plan.rows.value == Rows::Ends,
             has_reactions: scene.output.reactions != scene::WantedReactions::None,
             compares: prepared.decision.redundancy > 0,
+            has_choices: !plan.choices.is_empty(),
         }
     }
 
@@ -109,12 +122,17 @@ impl<'a> ReportBuilder<'a> {
             document: run,
             stretches,
         } = *of_run;
-        let choice = run.choice.first().map(ToString::to_string);
+        let choices = if self.has_choices {
+            run.choice.iter().map(ToString::to_string).collect()
+        } else {
+            let own = run.choice.first();
+            vec![own.map_or_else(|| "this run".to_owned(), |own| format!("this run: {own}"))]
+        };
         let is_open = |k: usize| {
             let own = run.reactions.0.get(k);
             own.is_some_and(|(_, r)| r.verdict() == "not_unique")
         };
-        let (comparisons, mut left_out) = compare(mechanism, &self.recording, is_open, choice);
+        let (comparisons, mut left_out) = compare(mechanism, &self.recording, is_open, &choices);
         let (mut analysis, hints) = self.analysis(start);
         analysis.warnings.extend(self.scene.cautions());
         analysis.add_sensitivities(sensitivities, mechanism.layout());

@@ -84,6 +84,7 @@ impl Path {
             accelerations: false,
             reactions: Reactions::None,
             groups: Vec::new(),
+            choices: Vec::new(),
         };
         let other_plan = Plan::new(other, plan.options(), &wanted)?;
         let space = other.mechanism.space();

@@ -18,7 +18,7 @@ use model::{
     System,
 };
 use report::documents::{
-    DataDocument, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument,
+    DataDocument, Gap, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument, choice_file,
 };
 use report::{
     AnalysisDocument, Origin, OutputDirectory, Peak, PeakRecorder, ReactionColumn, Run,
@@ -26,17 +26,19 @@ use report::{
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{
-    Chosen, Contradiction, Freedoms, Group, GroupNumbers, ReactionVerdict, Sensitivities,
-    Sensitivity, State, Stretches, contradicting_drives_along,
+    Choice, Chosen, Contradiction, Freedoms, Group, GroupNumbers, NamedChoice, ReactionVerdict,
+    Sensitivities, Sensitivity, State, Stretches, contradicting_drives_along,
 };
 
 use crate::assembled::{AssembledScene, refused};
 use crate::configuration::{AskedRows, ConfigurationAnalysis, requests};
 use crate::error::StudyError;
 use crate::report_builder::{OfRun, ReportBuilder};
-use crate::rows::{Calling, Ended, RowSink, run_into};
+use crate::rows::{Calling, Ended, RowFault, RowSink, run_into};
 use crate::spread::Path;
-use crate::tables_of_run::{ReactionFiles, TableRows, TrajectoryFile, group_numbers};
+use crate::tables_of_run::{
+    KEPT_ROWS, ReactionFiles, TableRows, TrajectoryFile, group_numbers, note_gap,
+};
 use crate::within::missed;
 
 /// Largest number of rows of a mechanism for which an animation has additional rows between those
@@ -62,6 +64,9 @@ pub struct Study {
     pub prepared: Prepared,
     /// Options of a run; `None` if neither the scene nor the caller states the end of the run.
     pub options: Option<MotionOptions>,
+    /// Choices that give the numbers which the model does not determine, in a run; without any, its
+    /// dropped rows are the choice.
+    pub choices: Vec<Choice>,
 }
 
 /// A run that has ended.
@@ -88,6 +93,9 @@ pub struct ChosenNumbers {
     pub reactions: Chosen<Reaction>,
     /// All numbers of the groups of the scene, group by group.
     pub groups: Chosen<f64>,
+    /// The same for each choice of [`Study::choices`] and then of [`Wanted::choices`]; NaN where a
+    /// choice selects no solution.
+    pub choices: Vec<ChosenNumbers>,
 }
 
 /// Options of the caller that replace those of the scene.
@@ -313,6 +321,7 @@ impl Study {
             scene: self.scene.clone(),
             prepared: self.prepared.held_at(t),
             options: self.options.clone(),
+            choices: self.choices.clone(),
         }
     }
 
@@ -616,15 +625,18 @@ impl Study {
     ) -> Result<EndedRun, StudyError> {
         let begun = self.begun()?;
         let plan = Plan::new(&self.prepared, options, &begun.wanted(wanted.clone()))?;
+        let mut gaps = vec![None; plan.choices.len()];
         let (mut path, mut rows) = (Path::new(&self.prepared), 0);
         let (mechanism, q) = (&self.prepared.mechanism, &self.prepared.q);
         let mut groups = GroupNumbers::new(mechanism, q, &plan.groups);
         let (columns, space) = (begun.columns(&Selection::All)?, mechanism.space());
         let mut peaks = PeakRecorder::new(columns.len(), &mechanism.layout().break_times);
         let mut caller = Calling(|sample: &mut Sample<'_, '_>| {
+            let (reactions, multipliers) = (sample.reactions()?, sample.multipliers()?);
             let numbers = ChosenNumbers {
-                reactions: sample.reactions()?,
-                groups: group_numbers(&mut groups, sample)?,
+                reactions,
+                groups: group_numbers(&mut groups, sample, &multipliers)?,
+                choices: chosen_numbers(sample, &mut groups, &mut gaps)?,
             };
             let cuts = sample.events.iter().filter(|event| event.kind.cuts());
             cuts.for_each(|event| peaks.cut(event.time));
@@ -647,6 +659,7 @@ impl Study {
             rows,
             columns: &columns,
             peaks: &peaks,
+            gaps: &gaps,
             ..Written::default()
         };
         Ok(EndedRun {
@@ -658,6 +671,14 @@ impl Study {
         })
     }
 
+    /// The joint or drive with this name.
+    ///
+    /// # Errors
+    /// [`StudyError::UnknownReaction`], with the nearest name.
+    pub fn reaction(&self, name: &str) -> Result<ConstraintId, StudyError> {
+        requests::reaction(&self.scene, &self.prepared.mechanism, name)
+    }
+
     /// The groups of the scene with their names.
     fn groups(&self) -> Result<Vec<(String, Group)>, StudyError> {
         requests::groups(&self.scene, &self.prepared.mechanism, &[])
@@ -666,7 +687,9 @@ impl Study {
     /// What is known of a run before it begins.
     fn begun(&self) -> Result<Begun<'_>, StudyError> {
         let start = self.analyse(0.0, None)?;
+        let choices = self.choices.iter().map(|choice| start.named(choice));
         Ok(Begun {
+            choices: choices.collect::<Result<_, _>>()?,
             freedoms: start.freedoms()?,
             sensitivities: start.sensitivities()?,
             groups: self.groups()?,
@@ -762,12 +785,16 @@ impl Study {
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<RunDocument, StudyError> {
         // Checked before any file of an earlier run is changed.
-        let plan = self.plan()?;
+        let mut plan = self.plan()?;
         let t_end = plan.options().t_end;
         let between = self.rows_between(&wanted(&self.scene.output));
         let mechanism = &self.prepared.mechanism;
         let output = &self.scene.output;
         let begun = self.begun()?;
+        if !begun.choices.is_empty() && matches!(output.reactions, WantedReactions::None) {
+            return Err(StudyError::NoReactions);
+        }
+        plan.choices.clone_from(&begun.choices);
         let table_rows = TableRows::new(between, t_end);
         let mut trajectory = if output.trajectory {
             let file = directory.file("trajectory.csv")?;
@@ -781,7 +808,7 @@ impl Study {
                 directory,
                 (mechanism, &self.prepared.q),
                 begun.columns(&selection)?,
-                &plan.groups,
+                &plan,
                 table_rows,
                 self.prepared.decision.redundancy == 0,
             )?),
@@ -815,10 +842,13 @@ impl Study {
             sink.end(ended.summary.verdicts.as_ref(), &ended.ending())?;
         }
         drop(sinks);
-        let has_choice = reactions.as_ref().is_some_and(|files| files.has_choice);
-        let files = files_of(output, has_choice);
         let none = (&[][..], &[][..]);
         let (columns, peaks) = reactions.as_ref().map_or(none, ReactionFiles::peaks);
+        let (choice_files, gaps): (&[String], &[Option<Gap>]) = match &reactions {
+            Some(tables) => (&tables.choice_files, &tables.gaps),
+            None => (&[], &[]),
+        };
+        let files = files_of(output, choice_files);
         let document = begun.document(
             &plan,
             &ended,
@@ -826,6 +856,7 @@ impl Study {
                 spread: path.spread_of(&plan, &ended, stop),
                 rows: written_rows,
                 files: &files,
+                gaps,
                 columns,
                 peaks,
             },
@@ -837,8 +868,9 @@ impl Study {
         })?;
         directory.write("summary.json", &text)?;
         // The summary names its files, so that these mean nothing any more.
-        let stale = FILES.iter().filter(|name| !files.contains(name));
-        directory.remove_stale(&stale.copied().collect::<Vec<_>>())?;
+        let mut stale = files_in(directory, 0);
+        stale.retain(|name| !files.contains(name));
+        directory.remove_stale(&stale)?;
         if let Some(report_builder) = report_builder {
             let figure = comparison_beside(directory);
             let of_run = OfRun {
@@ -868,6 +900,7 @@ struct Begun<'s> {
     sensitivities: Sensitivities,
     /// The groups of the scene, with their names.
     groups: Vec<(String, Group)>,
+    choices: Vec<NamedChoice>,
 }
 
 /// What was written of a run.
@@ -875,17 +908,20 @@ struct Begun<'s> {
 struct Written<'w> {
     spread: Option<SpreadDocument>,
     rows: usize,
-    files: &'w [&'static str],
+    files: &'w [String],
+    gaps: &'w [Option<Gap>],
     columns: &'w [ReactionColumn],
     peaks: &'w [Option<Peak>],
 }
 
 impl Begun<'_> {
-    /// The requested output with the groups of the scene.
+    /// The requested output with the groups of the scene and the choices.
     fn wanted(&self, wanted: Wanted) -> Wanted {
         let groups = self.groups.iter().map(|(_, group)| group.clone());
+        let choices = self.choices.iter().cloned();
         Wanted {
             groups: groups.collect(),
+            choices: choices.chain(wanted.choices).collect(),
             ..wanted
         }
     }
@@ -923,31 +959,46 @@ impl Begun<'_> {
             ending: ended.ending(),
             rows: written.rows,
             files: written.files,
+            gaps: written.gaps,
         })
     }
 }
 
-/// Files that a run writes if its scene wants all of them.
-pub const FILES: [&str; 5] = [
-    "trajectory.csv",
-    "reactions.csv",
-    "choice.csv",
-    "summary.json",
-    "report.html",
-];
+/// Files that a run into this directory writes with so many choices if its scene wants all of them,
+/// and those that earlier runs have left.
+#[must_use]
+pub fn files_in(directory: &OutputDirectory, choices: usize) -> Vec<String> {
+    let mut names = files_of(&Output::default(), &choice_files(choices));
+    names.extend(directory.numbered("choice", "csv"));
+    names.push(KEPT_ROWS.to_owned());
+    names
+}
 
-/// The files of a run with this output.
-fn files_of(output: &Output, has_choice: bool) -> Vec<&'static str> {
+/// Files that a run with so many choices writes if its scene wants all of them.
+#[must_use]
+pub fn files(choices: usize) -> Vec<String> {
+    files_of(&Output::default(), &choice_files(choices))
+}
+
+/// The tables of so many choices; without any, that of the dropped rows.
+fn choice_files(choices: usize) -> Vec<String> {
+    (0..choices.max(1)).map(choice_file).collect()
+}
+
+/// The files of a run with this output and these tables of choices.
+fn files_of(output: &Output, choices: &[String]) -> Vec<String> {
     let reactions = !matches!(output.reactions, WantedReactions::None);
-    let wanted = [
-        output.trajectory,
-        reactions,
-        has_choice,
-        true,
-        output.report,
+    let tables = [
+        ("trajectory.csv", output.trajectory),
+        ("reactions.csv", reactions),
     ];
-    let wanted = FILES.into_iter().zip(wanted);
-    wanted.filter_map(|(name, is)| is.then_some(name)).collect()
+    let others = [("summary.json", true), ("report.html", output.report)];
+    let wanted = |(name, is): (&str, bool)| is.then(|| name.to_owned());
+    let tables = tables.into_iter().filter_map(wanted);
+    let tables = tables.chain(choices.iter().cloned());
+    tables
+        .chain(others.into_iter().filter_map(wanted))
+        .collect()
 }
 
 /// The output of a run that is needed for these files.
@@ -967,7 +1018,26 @@ fn wanted(output: &Output) -> Wanted {
         accelerations: false,
         reactions,
         groups: Vec::new(),
+        choices: Vec::new(),
     }
+}
+
+/// The numbers of a row by each choice. Counts the rows at which a choice selects no solution.
+fn chosen_numbers(
+    sample: &mut Sample<'_, '_>,
+    groups: &mut GroupNumbers<'_>,
+    gaps: &mut [Option<Gap>],
+) -> Result<Vec<ChosenNumbers>, RowFault> {
+    let mut all = Vec::with_capacity(gaps.len());
+    for (found, gap) in sample.chosen()?.into_iter().zip(gaps) {
+        note_gap(gap, sample.t, found.refused.as_ref());
+        all.push(ChosenNumbers {
+            groups: group_numbers(groups, sample, &found.multipliers)?,
+            reactions: found.reactions,
+            choices: Vec::new(),
+        });
+    }
+    Ok(all)
 }
 
 /// The figure of a comparison of methods in the same directory, if there is one and it is not too

@@ -5,13 +5,14 @@ use std::io::BufReader;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use dynamics::Sample;
+use dynamics::{Plan, Sample};
 use model::{Mechanism, System};
+use report::documents::{Gap, choice_file};
 use report::{
     Ending, FileError, OutputDirectory, OutputFile, Peak, PeakRecorder, ReactionColumn,
-    ReactionTable, TableError, TrajectoryTable, write_determined,
+    ReactionTable, TableError, TrajectoryTable, write_chosen, write_determined,
 };
-use solvability::{Chosen, Group, GroupNumbers, Stretches};
+use solvability::{ChoiceError, Chosen, GroupNumbers, Stretches};
 
 use crate::error::StudyError;
 use crate::rows::{RowFault, RowSink};
@@ -83,11 +84,15 @@ impl RowSink for TrajectoryFile<'_> {
     }
 }
 
-/// `reactions.csv`, and `choice.csv` where a cell of it is empty: until the run has ended, all
-/// numbers are those of one choice.
+/// `reactions.csv`, and tables of choices where a cell of it is empty. Until the run has ended, all
+/// numbers are those of one choice: of the rows that the run keeps, in `choice.csv`; or, if other
+/// choices are requested, in a file that is removed at the end.
 pub(crate) struct ReactionFiles<'m> {
     directory: &'m OutputDirectory,
+    mechanism: &'m Mechanism,
     table: Option<ReactionTable<OutputFile>>,
+    /// The numbers of each requested choice, with the rows at which it selects no solution.
+    chosen: Vec<(ReactionTable<OutputFile>, Option<Gap>)>,
     /// Whether every number is determined, whatever comes.
     is_plain: bool,
     rows: TableRows,
@@ -96,13 +101,18 @@ pub(crate) struct ReactionFiles<'m> {
     columns: Vec<ReactionColumn>,
     /// The peaks of the columns, after the end.
     found: Vec<Option<Peak>>,
-    /// Whether a cell is empty, after the end.
-    pub(crate) has_choice: bool,
+    /// The tables of choices, after the end; none if no cell is empty.
+    pub(crate) choice_files: Vec<String>,
+    /// The rows at which each choice selects no solution, after the end.
+    pub(crate) gaps: Vec<Option<Gap>>,
 }
 
 /// The table of all numbers of one choice.
 const CHOICE: &str = "choice.csv";
 const REACTIONS: &str = "reactions.csv";
+
+/// The numbers on the rows that the run keeps, if other choices are requested.
+pub(crate) const KEPT_ROWS: &str = "choice_0.csv";
 
 impl<'m> ReactionFiles<'m> {
     /// Begins the files. `is_plain` states whether no row is dropped.
@@ -110,29 +120,80 @@ impl<'m> ReactionFiles<'m> {
         directory: &'m OutputDirectory,
         (mechanism, q): (&'m Mechanism, &[f64]),
         columns: Vec<ReactionColumn>,
-        groups: &[Group],
+        plan: &Plan<'_>,
         rows: TableRows,
         is_plain: bool,
     ) -> Result<Self, StudyError> {
-        let name = if is_plain { REACTIONS } else { CHOICE };
-        let file = directory.file(name)?;
+        let table = |name, file| ReactionTable::new(name, file, mechanism, columns.clone());
+        let choices = if is_plain { 0 } else { plan.choices.len() };
+        let own = match (is_plain, choices) {
+            (true, _) => table(REACTIONS, directory.file(REACTIONS)?)?,
+            (false, 0) => table(CHOICE, directory.file(CHOICE)?)?,
+            (false, _) => table(REACTIONS, directory.scratch(KEPT_ROWS)?)?,
+        };
+        let chosen = (0..choices).map(|k| {
+            let file = directory.file(&choice_file(k))?;
+            Ok::<_, StudyError>((table(CHOICE, file)?, None))
+        });
         let cuts = &mechanism.layout().break_times;
         Ok(Self {
             directory,
-            table: Some(ReactionTable::new(name, file, mechanism, columns.clone())?),
+            mechanism,
+            table: Some(own),
+            chosen: chosen.collect::<Result<_, _>>()?,
             is_plain,
             rows,
-            numbers: GroupNumbers::new(mechanism, q, groups),
+            numbers: GroupNumbers::new(mechanism, q, &plan.groups),
             peaks: PeakRecorder::new(columns.len(), cuts),
             columns,
             found: Vec::new(),
-            has_choice: false,
+            choice_files: Vec::new(),
+            gaps: Vec::new(),
         })
     }
 
     /// The columns of the tables and their peaks, after the end.
     pub(crate) fn peaks(&self) -> (&[ReactionColumn], &[Option<Peak>]) {
         (&self.columns, &self.found)
+    }
+
+    /// Writes `reactions.csv` from all numbers of the run, and the tables of the requested choices
+    /// from their numbers where a cell is empty.
+    fn end_of_choices(
+        &mut self,
+        mut all: OutputFile,
+        stretches: &Stretches,
+        ending: &Ending<'_>,
+    ) -> Result<(), StudyError> {
+        let mut out = self.directory.file(REACTIONS)?;
+        let (columns, read) = (&self.columns, BufReader::new);
+        let write = |source| TableError::Write {
+            table: CHOICE,
+            source,
+        };
+        let has_choice = write_determined(read(all.written()?), &mut out, columns, stretches)?;
+        finished(out, ending)?;
+        for (k, (table, gap)) in std::mem::take(&mut self.chosen).into_iter().enumerate() {
+            let (file, _) = table.finish()?;
+            if !has_choice {
+                continue;
+            }
+            // Its own numbers of what is determined differ by rounding from those of the run.
+            let own = File::open(finished(file, ending)?).map_err(write)?;
+            let name = choice_file(k);
+            let mut out = self.directory.file(&name)?;
+            write_chosen(
+                read(all.written()?),
+                read(own),
+                &mut out,
+                columns,
+                stretches,
+            )?;
+            finished(out, ending)?;
+            self.choice_files.push(name);
+            self.gaps.push(gap);
+        }
+        Ok(())
     }
 }
 
@@ -147,18 +208,38 @@ impl RowSink for ReactionFiles<'_> {
             return Ok(ControlFlow::Continue(()));
         };
         let reactions = sample.reactions()?;
-        let groups = group_numbers(&mut self.numbers, sample)?;
+        let multipliers = sample.multipliers()?;
+        let groups = group_numbers(&mut self.numbers, sample, &multipliers)?;
         let values = table.row(sample.t, &reactions, &groups)?;
         self.peaks.row(sample.t, values);
+        if self.chosen.is_empty() {
+            return Ok(ControlFlow::Continue(()));
+        }
+        for ((table, gap), found) in self.chosen.iter_mut().zip(sample.chosen()?) {
+            let groups = group_numbers(&mut self.numbers, sample, &found.multipliers)?;
+            table.row(sample.t, &found.reactions, &groups)?;
+            note_gap(gap, sample.t, found.refused.as_ref());
+        }
         Ok(ControlFlow::Continue(()))
     }
 
     fn end(&mut self, verdicts: Option<&Stretches>, ending: &Ending<'_>) -> Result<(), StudyError> {
-        let (Some(table), Some(stretches)) = (self.table.take(), verdicts) else {
+        let Some(table) = self.table.take() else {
             return Ok(());
+        };
+        let nothing;
+        let stretches = if let Some(verdicts) = verdicts {
+            verdicts
+        } else {
+            // No joint or drive is written, so no cell is open.
+            nothing = Stretches::unique(self.mechanism, [0.0; 2], self.numbers.groups());
+            &nothing
         };
         self.found = self.peaks.finish(&self.columns, stretches);
         let (file, columns) = table.finish()?;
+        if !self.chosen.is_empty() {
+            return self.end_of_choices(file, stretches, ending);
+        }
         let path = finished(file, ending)?;
         if self.is_plain {
             return Ok(());
@@ -169,25 +250,35 @@ impl RowSink for ReactionFiles<'_> {
         };
         let all = BufReader::new(File::open(path).map_err(write)?);
         let mut out = self.directory.file(REACTIONS)?;
-        self.has_choice = write_determined(all, &mut out, &columns, stretches)?;
+        let has_choice = write_determined(all, &mut out, &columns, stretches)?;
         finished(out, ending)?;
-        if !self.has_choice {
+        if has_choice {
+            self.choice_files.push(CHOICE.to_owned());
+        } else {
             self.directory.remove_stale(&[CHOICE])?;
         }
         Ok(())
     }
 }
 
-/// The numbers of groups at a row.
+/// Counts a row at which a choice selects no solution.
+pub(crate) fn note_gap(gap: &mut Option<Gap>, t: f64, refused: Option<&ChoiceError>) {
+    if let Some(error) = refused {
+        let first = || Gap::at(t, error.to_string());
+        gap.get_or_insert_with(first).rows += 1;
+    }
+}
+
+/// The numbers of groups at a row, for these multipliers.
 pub(crate) fn group_numbers(
     numbers: &mut GroupNumbers<'_>,
-    sample: &mut Sample<'_, '_>,
+    sample: &Sample<'_, '_>,
+    multipliers: &Chosen<f64>,
 ) -> Result<Chosen<f64>, RowFault> {
     if numbers.groups().is_empty() {
-        return Ok(Chosen::new(Vec::new(), sample.dropped.to_vec()));
+        return Ok(multipliers.with(Vec::new()));
     }
-    let multipliers = sample.multipliers()?;
-    let found = numbers.at(sample.t, sample.q, &multipliers);
+    let found = numbers.at(sample.t, sample.q, multipliers);
     // Groups were judged before the run began; what is left is a number that is not finite.
     found.map_err(|e| {
         RowFault::Table(TableError::Write {

@@ -46,7 +46,9 @@ pub use linearise::{
 pub use misfits::{MisfitDocument, SpreadDocument};
 pub use motion::{MomentDocument, MotionDocument};
 pub use plan::{DecisionDocument, PlanDocument, PlannedComponentDocument, SavingDocument};
-pub use run::{ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Run, RunDocument};
+pub use run::{
+    ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Gap, Run, RunDocument, choice_file,
+};
 pub use sensitivity::SensitivityDocument;
 pub use tolerance::{
     DescribedDocument, DrawnDocument, FailureDocument, HistogramDocument, MarkerRangeDocument,

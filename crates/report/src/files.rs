@@ -1,12 +1,14 @@
 //! Files of an output directory. Each is written next to its final place as `<name>.part` and
-//! renamed when it is finished: a file with its final name is always complete. An abandoned file
-//! keeps the name `.part` and what has been written so far. If writing fails, it is cut off after
-//! the last complete line; an older file with the final name stays unchanged.
+//! renamed when it is finished: a file with its final name is always complete. A file that is
+//! dropped before it is finished is removed, and so is a directory that was made for files and has
+//! none. If writing fails, the file and the others that are not finished are cut off after the last
+//! complete line and keep the name `.part`; an older file with the final name stays unchanged.
 //!
 //! Nothing is written through a symbolic link: a link at the place of a file is replaced by the
 //! file, and what it refers to stays as it is.
 
 mod lock;
+mod made;
 mod ours;
 pub(crate) mod process;
 
@@ -15,11 +17,12 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::mem;
 use std::path::{Component, Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::thread::sleep;
 use std::time::Duration;
 
+use made::Made;
 pub use ours::{PROVENANCE, is_ours};
 
 /// Reason why a file cannot be written.
@@ -118,6 +121,10 @@ pub struct OutputDirectory {
     written: Arc<Mutex<Written>>,
     /// Excludes other processes until the last clone is dropped.
     _lock: Option<Arc<File>>,
+    /// The directories that were made for it.
+    made: Arc<Made>,
+    /// Whether a file could not be written: then files that are not finished are kept.
+    has_failed: Arc<AtomicBool>,
 }
 
 /// Names of files that are not finished.
@@ -153,18 +160,21 @@ const PATIENCE: Duration = Duration::from_millis(100);
 const PAUSE: Duration = Duration::from_millis(5);
 
 impl OutputDirectory {
-    /// Opens a directory, and creates it if there is none.
+    /// Opens a directory, and creates it if there is none. One that was created here and has no
+    /// file is removed with the last clone of this value.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: it cannot be created, for instance because a file has its name.
     pub fn create(path: impl Into<PathBuf>) -> Result<Self, FileError> {
         let path = path.into();
-        fs::create_dir_all(&path).map_err(FileError::refused("make the directory", &path))?;
+        let made = Made::all_of(&path).map_err(FileError::refused("make the directory", &path))?;
         Ok(Self {
+            made: Arc::new(made),
             path,
             parts: Parts::Plain,
             written: Arc::default(),
             _lock: None,
+            has_failed: Arc::default(),
         })
     }
 
@@ -213,8 +223,8 @@ impl OutputDirectory {
     ///
     /// # Errors
     /// - [`FileError::Foreign`]
-    pub fn check_ours(&self, names: &[&str]) -> Result<(), FileError> {
-        let paths = names.iter().map(|name| self.path.join(name));
+    pub fn check_ours(&self, names: &[impl AsRef<str>]) -> Result<(), FileError> {
+        let paths = names.iter().map(|name| self.path.join(name.as_ref()));
         let paths: Vec<PathBuf> = paths.filter(|path| !is_ours(path)).collect();
         if paths.is_empty() {
             Ok(())
@@ -236,6 +246,15 @@ impl OutputDirectory {
         Ok(file)
     }
 
+    /// Begins a file that is only read again, by [`OutputFile::written`], and never gets its final
+    /// name: it is removed once it is dropped.
+    ///
+    /// # Errors
+    /// As [`OutputDirectory::file`].
+    pub fn scratch(&self, name: &str) -> Result<OutputFile, FileError> {
+        self.begin(name)
+    }
+
     /// Writes a whole file.
     ///
     /// # Errors
@@ -254,21 +273,40 @@ impl OutputDirectory {
         file.finish()
     }
 
+    /// The files there, finished or not, that are called `STEM_N.ENDING` with a number N.
+    #[must_use]
+    pub fn numbered(&self, stem: &str, ending: &str) -> Vec<String> {
+        let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
+        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+        let names = names.map(|name| name.strip_suffix(".part").unwrap_or(&name).to_owned());
+        let is_numbered = |name: &String| {
+            let number = name
+                .strip_prefix(stem)
+                .and_then(|rest| rest.strip_prefix('_'));
+            let number = number.and_then(|rest| rest.strip_suffix(ending)?.strip_suffix('.'));
+            number.is_some_and(|number| number.parse::<u64>().is_ok())
+        };
+        let mut names: Vec<String> = names.filter(is_numbered).collect();
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+
     /// Removes files that an earlier run has left and this one does not write, also those with the
     /// name `.part`: they would be taken for its results. Returns their names.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: one of them cannot be removed.
-    pub fn remove_stale(&self, names: &[&'static str]) -> Result<Vec<&'static str>, FileError> {
+    pub fn remove_stale(&self, names: &[impl AsRef<str>]) -> Result<Vec<String>, FileError> {
         let mut removed = Vec::new();
-        for name in names {
+        for name in names.iter().map(AsRef::as_ref) {
             for ending in ["", ".part"] {
                 let path = self.path.join(format!("{name}{ending}"));
                 if ending.is_empty() && !is_ours(&path) {
                     continue;
                 }
                 match fs::remove_file(&path) {
-                    Ok(()) => removed.push(*name),
+                    Ok(()) => removed.push(name.to_owned()),
                     Err(e) if e.kind() == ErrorKind::NotFound => {}
                     Err(e) => return Err(FileError::refused("remove", &path)(e)),
                 }
@@ -286,16 +324,15 @@ impl OutputDirectory {
 
     /// Like [`Self::abandon`]. In addition, `name` is written with this content unless it has been
     /// written already, and those of `all` files that were not written are removed.
-    pub fn abandon_as(&self, name: &'static str, content: &[u8], all: &[&'static str]) -> bool {
+    pub fn abandon_as(&self, name: &str, content: &[u8], all: &[impl AsRef<str>]) -> bool {
         self.abandon_with(|written| {
             // The process ends, whether or not this can be done.
             if !written.has(name) {
                 let _ = self.put(name, content);
             }
-            let stale = all
-                .iter()
-                .filter(|file| **file != name && !written.has(file));
-            let _ = self.remove_stale(&stale.copied().collect::<Vec<_>>());
+            let stale = all.iter().map(AsRef::as_ref);
+            let stale = stale.filter(|file| *file != name && !written.has(file));
+            let _ = self.remove_stale(&stale.collect::<Vec<&str>>());
         })
     }
 
@@ -304,6 +341,7 @@ impl OutputDirectory {
             return false;
         };
         if written.begun.is_empty() && written.finished.is_empty() {
+            self.made.remove_empty();
             return false;
         }
         for (_, content) in &written.begun {
@@ -346,6 +384,7 @@ impl OutputDirectory {
                 buffer: Ok(BufWriter::new(file)),
                 part,
                 path,
+                has_failed: Arc::clone(&self.has_failed),
             })),
         })
     }
@@ -406,7 +445,8 @@ fn patiently<T>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
     }
 }
 
-/// A file that is being written, buffered. Errors of writing name its path.
+/// A file that is being written, buffered. Errors of writing name its path. Dropped before it is
+/// finished, it is removed.
 #[derive(Debug)]
 pub struct OutputFile {
     content: Arc<Mutex<Content>>,
@@ -419,6 +459,8 @@ struct Content {
     buffer: Result<BufWriter<File>, io::Error>,
     part: PathBuf,
     path: PathBuf,
+    /// Of the directory.
+    has_failed: Arc<AtomicBool>,
 }
 
 impl OutputFile {
@@ -448,6 +490,17 @@ impl OutputFile {
         flushed.and(renamed)
     }
 
+    /// Reads what has been written so far.
+    ///
+    /// # Errors
+    /// - [`FileError::Refused`]: not everything could be written, or it cannot be read.
+    pub fn written(&mut self) -> Result<File, FileError> {
+        let mut content = self.content();
+        let flushed = content.with(Write::flush);
+        flushed.map_err(FileError::refused("write", &content.part))?;
+        File::open(&content.part).map_err(FileError::refused("read", &content.part))
+    }
+
     /// Waits until everything written so far is on the disk, not only passed to the operating
     /// system.
     ///
@@ -471,6 +524,22 @@ impl OutputFile {
     }
 }
 
+impl Drop for Content {
+    /// Nothing refers to a file that is given up. What a failure or a panic has left is kept.
+    fn drop(&mut self) {
+        let is_kept = self.has_failed.load(Ordering::Relaxed) || std::thread::panicking();
+        if is_kept && self.with(Write::flush).is_ok() {
+            self.close(ErrorKind::BrokenPipe.into());
+        }
+        let gone = Err(ErrorKind::BrokenPipe.into());
+        if let Ok(buffer) = mem::replace(&mut self.buffer, gone) {
+            drop(buffer.into_parts());
+            // A file that cannot be removed has the name `.part`.
+            let _ = fs::remove_file(&self.part);
+        }
+    }
+}
+
 impl Content {
     fn rename(&mut self) -> Result<PathBuf, FileError> {
         // Closed before renaming, because some systems do not rename open files. A failed flush is
@@ -478,6 +547,7 @@ impl Content {
         let buffer = mem::replace(&mut self.buffer, Err(ErrorKind::BrokenPipe.into()));
         drop(buffer.map(BufWriter::into_parts));
         let renamed = fs::rename(&self.part, &self.path);
+        let renamed = renamed.inspect_err(|_| self.has_failed.store(true, Ordering::Relaxed));
         renamed.map_err(FileError::refused("rename to", &self.path))?;
         Ok(self.path.clone())
     }
@@ -505,6 +575,7 @@ impl Content {
             // Callers try interrupted writes again.
             && e.kind() != ErrorKind::Interrupted
         {
+            self.has_failed.store(true, Ordering::Relaxed);
             self.close(again(e));
         }
         done

@@ -40,7 +40,7 @@ pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
 pub use tables::{
     Column, MatrixTable, Quantity, ReactionColumn, ReactionTable, Selection, TableError,
     Trajectory, TrajectoryTable, columns_of_reactions, modes_table, reaction_columns,
-    tolerance_table, write_determined,
+    tolerance_table, write_chosen, write_determined,
 };
 pub use tolerance::tolerance_page;
 pub use work_precision::{

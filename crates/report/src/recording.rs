@@ -27,6 +27,8 @@ pub struct Frame {
     pub reactions: Vec<Reaction>,
     /// Multipliers of all rows; empty if no choices are compared.
     pub multipliers: Vec<f64>,
+    /// The same by each requested choice.
+    pub chosen: Vec<Vec<f64>>,
 }
 
 impl Frame {
@@ -40,6 +42,7 @@ impl Frame {
             work: 0.0,
             reactions: Vec::new(),
             multipliers: Vec::new(),
+            chosen: Vec::new(),
         }
     }
 }

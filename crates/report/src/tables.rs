@@ -18,7 +18,7 @@ use serde::Serialize;
 pub use linearise::{MatrixTable, modes_table};
 pub use reactions::{
     Quantity, ReactionColumn, ReactionTable, Selection, columns_of_reactions, reaction_columns,
-    write_determined,
+    write_chosen, write_determined,
 };
 pub use tolerance::tolerance_table;
 pub use trajectory::{Column, Trajectory, TrajectoryTable};

@@ -30,14 +30,47 @@ fn a_file_has_its_name_when_it_is_finished() {
 }
 
 #[test]
-fn an_abandoned_file_stays_a_part() {
+fn a_file_that_is_given_up_leaves_nothing() {
     let path = place("abandoned");
-    let directory = OutputDirectory::create(&path).expect("makes it");
+    let directory = OutputDirectory::create(path.join("a/b")).expect("makes directories");
     let mut file = directory.file("x.csv").expect("begins");
     file.write_all(b"half").expect("writes");
+    assert!(path.join("a/b/x.csv.part").exists());
     drop(file);
-    assert!(!path.join("x.csv").exists());
-    assert_eq!(fs::read(path.join("x.csv.part")).expect("reads"), b"half");
+    assert_eq!(fs::read_dir(path.join("a/b")).expect("reads").count(), 0);
+    let clone = directory.clone();
+    drop(directory);
+    assert!(path.join("a/b").exists(), "a clone has it");
+    drop(clone);
+    assert!(!path.exists(), "no file was written");
+}
+
+#[test]
+fn directories_that_were_there_or_have_files_stay() {
+    let path = place("stays");
+    fs::create_dir_all(&path).expect("writable");
+    drop(OutputDirectory::create(path.join("empty")).expect("makes it"));
+    assert!(path.exists() && !path.join("empty").exists());
+    let directory = OutputDirectory::create(path.join("a/b")).expect("makes directories");
+    directory.write("x.csv", b"t\n").expect("writes");
+    drop(directory);
+    assert!(path.join("a/b/x.csv").exists());
+    drop(OutputDirectory::create(path.join("a/c")).expect("makes it"));
+    assert!(path.join("a").exists() && !path.join("a/c").exists());
+}
+
+#[test]
+fn a_panic_keeps_what_was_written() {
+    let path = place("panic");
+    let directory = OutputDirectory::create(&path).expect("makes it");
+    let mut file = directory.file("x.csv").expect("begins");
+    let panicked = std::panic::catch_unwind(move || {
+        file.write_all(b"t\n").expect("writes");
+        file.flush().expect("writes");
+        panic!("in the middle of a run");
+    });
+    assert!(panicked.is_err());
+    assert_eq!(fs::read(path.join("x.csv.part")).expect("kept"), b"t\n");
 }
 
 #[test]
@@ -155,8 +188,9 @@ fn one_process_at_a_time_has_a_directory() {
     assert!(shards.iter().all(Result::is_ok), "{shards:?}");
     open().exclusive().expect_err("shared");
     drop(shards);
-    open().exclusive().expect("free again");
+    let last = open().exclusive().expect("free again");
     assert_eq!(fs::read_dir(&path).expect("readable").count(), 0);
+    drop(last);
 }
 
 #[test]

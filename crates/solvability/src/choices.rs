@@ -2,9 +2,11 @@
 //! reaction: every number that is not unique is given with the choice on which it depends, and
 //! cannot be read without that label.
 
+mod carried;
 mod chosen;
 mod equations;
 mod error;
+mod free;
 mod label;
 mod minimise;
 
@@ -12,9 +14,10 @@ use std::sync::Arc;
 
 use crate::limits::VALUE_ROUNDINGS;
 use crate::pose::dimensionless;
-use model::ConstraintId;
+use model::{ConstraintId, Layout, RowRanges};
 use rank::{KeptRowsError, RankStatus};
 
+pub use carried::{CarriedChoices, CarriedSolution, NamedChoice};
 pub use chosen::Chosen;
 pub(crate) use equations::solution_under;
 pub use equations::{Equations, RowTerms, Solution, solution};
@@ -22,11 +25,12 @@ pub use error::ChoiceError;
 pub use minimise::minimise;
 
 use crate::groups::{Configuration, LinearForm, RequestError, check};
-use crate::parts::Extent;
+use crate::parts::{Extent, ListedRows};
 use crate::value::{Label, NoFiniteReaction, Value};
 use crate::verdict::Verdict;
+use free::Choosing;
+pub(crate) use free::FreeMultipliers;
 pub(crate) use label::label;
-use minimise::independent_columns;
 
 /// A rule that chooses one of the solutions.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +44,46 @@ pub enum Choice {
     Compliance(Vec<Compliance>),
     /// Sets the reactions in these rows (from 0) to zero.
     Elimination(Vec<usize>),
+}
+
+impl Choice {
+    /// The share of a part: its own joints, drives and rows, numbered in the part.
+    #[must_use]
+    pub fn share(&self, extent: &Extent) -> Self {
+        self.share_of(extent, &self.listed_rows())
+    }
+
+    /// The rows that it lists.
+    pub(crate) fn listed_rows(&self) -> ListedRows<'_> {
+        ListedRows::new(self.eliminated())
+    }
+
+    /// Rows (from 0) whose multipliers it sets to zero.
+    #[must_use]
+    pub fn eliminated(&self) -> &[usize] {
+        match self {
+            Self::Elimination(rows) => rows,
+            Self::MinimumNorm(_) | Self::Compliance(_) => &[],
+        }
+    }
+
+    /// As [`Self::share`], for many parts.
+    pub(crate) fn share_of(&self, extent: &Extent, listed: &ListedRows<'_>) -> Self {
+        match self {
+            Self::MinimumNorm(weights) => Self::MinimumNorm(*weights),
+            Self::Compliance(joints) => {
+                let own = |joint: &Compliance| {
+                    let reaction = extent.own_group(joint.reaction.0)?;
+                    Some(Compliance {
+                        reaction: ConstraintId(reaction),
+                        ..*joint
+                    })
+                };
+                Self::Compliance(joints.iter().filter_map(own).collect())
+            }
+            Self::Elimination(_) => Self::Elimination(extent.own_rows(listed)),
+        }
+    }
 }
 
 /// Weights of forces and torques in a norm.
@@ -214,6 +258,22 @@ pub(crate) fn not_finite(
     no_finite.iter().find(is_in).map(Arc::clone)
 }
 
+/// The error for rows that cannot be without reaction.
+pub(crate) fn rows_refused(
+    layout: &Layout,
+    rows: &[usize],
+    is_unique: impl Fn(usize) -> bool,
+    source: KeptRowsError,
+) -> ChoiceError {
+    let known = rows.iter().copied().filter(|&i| i < layout.rows());
+    let label = |i: usize| layout.labels[i].clone();
+    ChoiceError::Rows {
+        rows: known.clone().map(label).collect(),
+        unique: known.filter(|&i| is_unique(i)).map(label).collect(),
+        source,
+    }
+}
+
 impl Configuration<'_> {
     /// The solution selected by a choice, starting from one solution λ₀ as returned by
     /// [`Equations::multipliers`].
@@ -251,7 +311,7 @@ impl Configuration<'_> {
         }
         let lambda = match choice {
             Choice::MinimumNorm(weights) => self.least_norm(lambda_0, *weights)?,
-            Choice::Compliance(joints) => self.elastic(lambda_0, joints)?,
+            Choice::Compliance(joints) => self.choosing().elastic(lambda_0, joints)?,
             Choice::Elimination(rows) => self.without(lambda_0, rows)?,
         };
         let mut distribution = Distribution {
@@ -309,130 +369,35 @@ impl Configuration<'_> {
     ///   bodies.
     /// - [`ChoiceError::NormWeight`], [`ChoiceError::Request`]: invalid numbers.
     pub fn least_norm(&self, lambda_0: &[f64], w: NormWeights) -> Result<Vec<f64>, ChoiceError> {
-        for value in [w.force, w.torque] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(ChoiceError::NormWeight { value });
-            }
-        }
-        let forces = self.layout().space.forces();
-        self.least(lambda_0, |_, component| {
-            let w = if forces.contains(&component) {
-                w.force
-            } else {
-                w.torque
-            };
-            w * w
-        })
+        self.choosing().least_norm(lambda_0, w)
     }
 
-    fn elastic(&self, lambda_0: &[f64], joints: &[Compliance]) -> Result<Vec<f64>, ChoiceError> {
-        let space = self.layout().space;
-        let rigid = ([0.0; 3], 0.0);
-        let mut of_joint = vec![rigid; self.layout().groups.len()];
-        for joint in joints {
-            self.reactions.check_id(joint.reaction)?;
-            let (along, rotation) = &mut of_joint[joint.reaction.0];
-            let totals = along.iter_mut().chain([rotation]);
-            for (total, compliance) in totals.zip(joint.along.into_iter().chain([joint.rotation])) {
-                if !(compliance.is_finite() && compliance >= 0.0) {
-                    return Err(ChoiceError::Weight { value: compliance });
-                }
-                // Compliances of springs in series add up.
-                *total += compliance;
-            }
+    /// All solutions at this configuration.
+    fn choosing(&self) -> Choosing<'_> {
+        let b_x = |rows: &RowRanges| Ok(self.solvability.b_x(rows.clone())?);
+        Choosing {
+            reactions: &self.reactions,
+            free: FreeMultipliers::of(&self.solvability),
+            b_x: Box::new(b_x),
         }
-        self.least(lambda_0, |id, component| {
-            let (along, rotation) = of_joint[id.0];
-            if space.forces().contains(&component) {
-                along[space.axis_of(component)]
-            } else {
-                rotation
-            }
-        })
     }
 
-    /// Minimises the weighted sum of squares of all wrenches.
-    fn least(
-        &self,
-        lambda_0: &[f64],
-        weights: impl Fn(ConstraintId, usize) -> f64,
-    ) -> Result<Vec<f64>, ChoiceError> {
-        let groups = &self.layout().groups;
-        let mut terms = Vec::new();
-        for (k, group) in groups.iter().enumerate() {
-            let id = ConstraintId(k);
-            for c in group.components() {
-                let form = self.reactions.component(id, group.space.components()[c])?;
-                terms.push((form, weights(id, c)));
-            }
-        }
-        self.check_visible(&terms)?;
-        minimise(&self.solvability, lambda_0, &terms)
-    }
-
-    /// Checks that every free direction changes at least one of the wrenches.
-    fn check_visible(&self, terms: &[(LinearForm, f64)]) -> Result<(), ChoiceError> {
-        let p = self.solvability.null_space().ncols();
-        let tolerance = rank::support_tolerance(self.solvability.decision());
-        let images: Vec<Vec<f64>> = terms
-            .iter()
-            .map(|(form, _)| form.image(&self.solvability).0)
-            .collect();
-        let rows: Vec<&[f64]> = images.iter().map(Vec::as_slice).collect();
-        let visible = independent_columns(&rows, p, tolerance).len();
-        if visible == p {
-            return Ok(());
-        }
-        for group in &self.layout().groups {
-            let b_x = self
-                .solvability
-                .b_x(group.rows.clone())
-                .map_err(RequestError::from)?;
-            let of_bodies = (0..b_x.nrows()).map(|i| b_x.row(i));
-            let all: Vec<&[f64]> = rows.iter().copied().chain(of_bodies).collect();
-            if independent_columns(&all, p, tolerance).len() > visible {
-                return Err(ChoiceError::Hidden {
-                    reaction: group.name.clone(),
-                });
-            }
-        }
-        Ok(())
-    }
-
-    /// `λ₀ − Z·(Z_D)⁻¹·λ₀_D`, with Z from the dependence of the rows D on the others, for which Z_D
-    /// = I; the result is exactly zero on D.
+    /// The solution that is exactly zero in these rows.
     fn without(&self, lambda_0: &[f64], rows: &[usize]) -> Result<Vec<f64>, ChoiceError> {
         let c = dimensionless(
             &self.reactions.mechanism,
             &self.reactions.s,
             self.reactions.size,
         );
-        let decision = rank::with_dropped(self.solvability.decision(), &c, rows)
+        rank::with_dropped(self.solvability.decision(), &c, rows)
             .map_err(|source| self.refused(rows, source))?;
-        let z = rank::dependencies(&decision);
-        let mut lambda = lambda_0.to_vec();
-        for (j, &row) in decision.dropped.iter().enumerate() {
-            for (i, l) in lambda.iter_mut().enumerate() {
-                *l -= z[(i, j)] * lambda_0[row];
-            }
-        }
-        Ok(lambda)
+        Ok(FreeMultipliers::of(&self.solvability).eliminated(lambda_0, rows))
     }
 
     fn refused(&self, rows: &[usize], source: KeptRowsError) -> ChoiceError {
-        let labels = &self.layout().labels;
-        let known: Vec<usize> = rows.iter().copied().filter(|&i| i < labels.len()).collect();
         let is_unique =
-            |i: &&usize| matches!(self.solvability.row(**i), Ok(row) if row.verdict.is_unique());
-        ChoiceError::Rows {
-            rows: known.iter().map(|&i| labels[i].clone()).collect(),
-            unique: known
-                .iter()
-                .filter(is_unique)
-                .map(|&i| labels[i].clone())
-                .collect(),
-            source,
-        }
+            |i: usize| matches!(self.solvability.row(i), Ok(row) if row.verdict.is_unique());
+        rows_refused(self.layout(), rows, is_unique, source)
     }
 
     /// Joints and drives that share loads with others but are not listed: they count as rigid.

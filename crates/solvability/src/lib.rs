@@ -87,8 +87,8 @@ pub use analysis::{
 };
 pub use certificate::{certify, inseparable};
 pub use choices::{
-    Choice, ChoiceError, Chosen, Compliance, Distribution, Equations, NormWeights, ReactionValues,
-    RowTerms, Solution, minimise, solution,
+    CarriedChoices, CarriedSolution, Choice, ChoiceError, Chosen, Compliance, Distribution,
+    Equations, NamedChoice, NormWeights, ReactionValues, RowTerms, Solution, minimise, solution,
 };
 pub use error::AnalysisError;
 pub use existence::{

@@ -10,7 +10,7 @@
 //! Here Z is an orthonormal basis of the left null space of the equilibrated C; it spans the same
 //! space, up to the scaling of rows.
 
-use linalg::Matrix;
+use linalg::{Matrix, PivotedQr};
 use rank::{ExactNullSpace, RankDecision, RankError, Uncertainty};
 
 use crate::verdict::Judgement;
@@ -120,6 +120,11 @@ impl Solvability {
         &self.basis.z
     }
 
+    /// Row factors of the equilibration, D_r.
+    pub(crate) fn row_factors(&self) -> &[f64] {
+        &self.basis.known.row_factor
+    }
+
     /// The values of a linear form of the multipliers along the columns of the null space.
     pub(crate) fn along_null_space(&self, form: &[f64]) -> Vec<f64> {
         let (z, factors) = (&self.basis.z, &self.basis.known.row_factor);
@@ -216,4 +221,18 @@ impl Solvability {
     ) -> Result<Vec<Vec<f64>>, QueryError> {
         self.basis.mapped(map, rows)?.unique_directions()
     }
+}
+
+/// An orthonormal basis, in equilibrated rows with these factors, of what dependencies of rows span
+/// in some of the rows; the first columns, each taken from the longest dependency that is left.
+pub(crate) fn orthonormal(
+    dependencies: &[&[f64]],
+    rows: &[usize],
+    row_factor: &[f64],
+    columns: usize,
+) -> Matrix {
+    let scaled = Matrix::from_fn(rows.len(), dependencies.len(), |i, j| {
+        dependencies[j][rows[i]] / row_factor[i]
+    });
+    PivotedQr::of_columns(&scaled).q_columns(0..columns)
 }

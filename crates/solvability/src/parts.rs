@@ -400,6 +400,31 @@ impl Partition {
     }
 }
 
+/// The parts of a mechanism at time t and coordinates q in which rows are dropped, each as a
+/// mechanism with the number of these rows.
+pub(crate) fn open_parts<'m>(
+    mechanism: &'m Mechanism,
+    (t, q): (f64, &[f64]),
+    dropped: &[usize],
+) -> Vec<(Extent, Cow<'m, Mechanism>, usize)> {
+    let all = match Partition::of(mechanism, t, q) {
+        Partition::One => vec![(Extent::Whole, Cow::Borrowed(mechanism))],
+        Partition::Several(sets) => {
+            let part = |groups: Vec<usize>| {
+                let part = mechanism.part_of_groups(&groups);
+                (Extent::Places(part.places), Cow::Owned(part.mechanism))
+            };
+            sets.into_iter().map(part).collect()
+        }
+    };
+    let counted = all.into_iter().map(|(extent, own)| {
+        let is_own = |row: &&usize| extent.own_row(**row).is_some();
+        let redundancy = dropped.iter().filter(is_own).count();
+        (extent, own, redundancy)
+    });
+    counted.filter(|(.., redundancy)| *redundancy > 0).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -17,8 +17,7 @@ use rayon::prelude::*;
 
 use crate::analysis::Analysis;
 use crate::choices::{
-    Choice, ChoiceError, Compliance, Distribution, Equations, ReactionValues, Solution, label,
-    not_finite,
+    Choice, ChoiceError, Distribution, Equations, ReactionValues, Solution, label, not_finite,
 };
 use crate::explain::{Explanation, ExplanationError, explain};
 use crate::frames::FrameVerdict;
@@ -390,16 +389,13 @@ impl<'a> Questions<'a> {
             return Ok(found.without(&solution.no_finite));
         }
         let reactions = self.part_of.len();
-        let eliminated = ListedRows::new(match choice {
-            Choice::Elimination(rows) => rows,
-            _ => &[],
-        });
+        let eliminated = choice.listed_rows();
         let rigid = match choice {
             Choice::Compliance(joints) => {
                 for joint in joints {
                     self.place(joint.reaction)?;
                 }
-                self.rigid(joints)?
+                self.rigid(choice)?
             }
             Choice::Elimination(_) => {
                 self.check_counts(&eliminated)?;
@@ -410,11 +406,7 @@ impl<'a> Questions<'a> {
         let label = label(self.mechanism.layout(), choice, &rigid);
         let share = |k: usize| {
             let extent = &self.parts()[k].extent;
-            let own = match choice {
-                Choice::MinimumNorm(weights) => Choice::MinimumNorm(*weights),
-                Choice::Compliance(joints) => Choice::Compliance(self.listed(k, joints)),
-                Choice::Elimination(_) => Choice::Elimination(extent.own_rows(&eliminated)),
-            };
+            let own = choice.share_of(extent, &eliminated);
             let configuration = self.configuration(k)?;
             let found = configuration.distribute_as(&extent.of_rows(lambda), &own, label.clone());
             let found = found.map_err(|source| match source {
@@ -450,26 +442,17 @@ impl<'a> Questions<'a> {
         Ok(())
     }
 
-    /// The listed supports that belong to a part.
-    fn listed(&self, k: usize, joints: &[Compliance]) -> Vec<Compliance> {
-        let own = |joint: &Compliance| {
-            let reaction = self.parts()[k].extent.own_group(joint.reaction.0)?;
-            Some(Compliance {
-                reaction: ConstraintId(reaction),
-                ..*joint
-            })
-        };
-        joints.iter().filter_map(own).collect()
-    }
-
-    fn rigid(&self, joints: &[Compliance]) -> Result<Vec<ConstraintId>, RequestError> {
+    /// Joints and drives that share loads and have no compliance in a choice.
+    fn rigid(&self, choice: &Choice) -> Result<Vec<ConstraintId>, RequestError> {
         let mut rigid = Vec::new();
         for (k, part) in self.parts().iter().enumerate() {
             if part.decision.redundancy() == 0 {
                 continue;
             }
-            let own = self.configuration(k)?.rigid(&self.listed(k, joints));
-            rigid.extend(own.iter().map(|id| ConstraintId(part.extent.group(id.0))));
+            if let Choice::Compliance(joints) = choice.share(&part.extent) {
+                let own = self.configuration(k)?.rigid(&joints);
+                rigid.extend(own.iter().map(|id| ConstraintId(part.extent.group(id.0))));
+            }
         }
         rigid.sort_unstable();
         Ok(rigid)

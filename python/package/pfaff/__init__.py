@@ -21,7 +21,7 @@ from ._errors import ComputationError, Error, InputError, InternalError, Place, 
 from ._functions import BodyState
 from ._linearisation import Linearisation
 from ._pfaff import __version__
-from ._run import BodyMotion, Event, Reaction, Run
+from ._run import BodyMotion, ChosenReactions, Event, Reaction, Run
 from ._samples import Samples
 from ._scene import Matrices, Scene
 from .cluster import SweepResult
@@ -30,6 +30,7 @@ __all__ = [
     "Analysis",
     "BodyMotion",
     "BodyState",
+    "ChosenReactions",
     "ComponentVerdict",
     "ComputationError",
     "Curve",

@@ -70,6 +70,10 @@ class Run:
     """
     A run. Arrays have a row for each time.
     """
+    def chosen(self, /) -> list[tuple[str, Incomplete]]:
+        """
+        The columns of `reactions` by each choice, with its name.
+        """
     @property
     def columns(self, /) -> list[tuple[str, str, str]]: ...
     @property
@@ -134,14 +138,14 @@ class Scene:
         The name that the scene gives itself, the names of its bodies, and of its joints and drives
         in the order of the rows.
         """
-    def simulate(self, /, options: Incomplete, numbers_of_choice: bool, on_event: Any | None, on_row: Any | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> Run:
+    def simulate(self, /, options: Incomplete, numbers_of_choice: bool, choices: SupportsGetItem[int, SupportsFloat | SupportsIndex | None | SupportsGetItem[int, SupportsIndex] | SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex]]], on_event: Any | None, on_row: Any | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> Run:
         """
         Runs the scene. With `numbers_of_choice` numbers that are not determined on their stretch of
-        the run are those of the rows that the run keeps, otherwise NaN. `drives` are functions of
-        time, measure and rate in place of laws, `forces` functions of the states of bodies, each
-        with its name.
+        the run are those of the rows that the run keeps, otherwise NaN; `choices` give the others in
+        arrays of their own. `drives` are functions of time, measure and rate in place of laws,
+        `forces` functions of the states of bodies, each with its name.
         """
-    def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete, until: SupportsFloat | SupportsIndex | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> str:
+    def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete, choices: SupportsGetItem[int, SupportsFloat | SupportsIndex | None | SupportsGetItem[int, SupportsIndex] | SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex]]], until: SupportsFloat | SupportsIndex | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> str:
         """
         Runs the scene and writes the files of the command into a directory; returns the summary.
         With `until` the run ends at the row of this time (s), as one that was asked to end there.

@@ -117,11 +117,41 @@ class Reaction(_Columns):
         return self["T"] if "T" in self._numbers else self._of(("Tx", "Ty", "Tz"))
 
 
+class ChosenReactions:
+    """Reactions of a run by one choice: what the model determines, and one solution of the rest."""
+
+    def __init__(self, name: str, reactions: Array, columns: Sequence[tuple[str, str, str]]) -> None:
+        self.name = name
+        """The name of the choice."""
+        reactions.flags.writeable = False
+        self.reactions: Array = reactions
+        """The columns of ``choice.csv`` after ``t``; NaN where the choice selects no solution."""
+        self._reactions = _grouped(columns, reactions, Reaction, ("reaction",))
+        self._groups = _grouped(columns, reactions, _Columns, ("group",))
+
+    def reaction(self, name: str) -> Reaction:
+        """The reaction of a joint or drive."""
+        return _named("joint or drive", name, self._reactions)
+
+    def group(self, name: str) -> _Columns:
+        """The numbers of a group of the scene."""
+        return _named("group with numbers", name, self._groups)
+
+    def __repr__(self) -> str:
+        return f"<pfaff.ChosenReactions: {self.name}>"
+
+
 class Run:
     """A run with its rows. Arrays have one row for each time, are made once and read-only."""
 
-    def __init__(self, of: _pfaff.Run, scene: Scene, options: dict[str, Any]) -> None:
+    def __init__(
+        self, of: _pfaff.Run, scene: Scene, options: dict[str, Any], is_chosen: bool = False
+    ) -> None:
         self._options = options
+        self.choices: list[ChosenReactions] = [
+            ChosenReactions(name, numbers, of.reaction_columns) for name, numbers in of.chosen()
+        ]
+        """The numbers by each choice of ``choose``, in its order; none for rows that are dropped."""
         self.scene = scene
         """The scene that was run."""
         self.t: Array = of.t
@@ -132,8 +162,9 @@ class Run:
         """Velocities."""
         self.trajectory: Array = of.trajectory
         """The columns of ``trajectory.csv`` after ``t``."""
-        self.reactions: Array = of.reactions
-        """The columns of ``reactions.csv`` after ``t``; NaN where a cell is empty."""
+        self.reactions: Array = self.choices[0].reactions if is_chosen else of.reactions
+        """The columns of ``reactions.csv`` after ``t``; NaN where a cell is empty, or the numbers of
+        a single choice."""
         for array in (self.t, self.q, self.v, self.trajectory, self.reactions):
             array.flags.writeable = False
         self.document: dict[str, Any] = json.loads(of.document)

@@ -22,9 +22,11 @@ from .cluster import SweepResult, Vary, sweep
 from ._samples import Samples
 
 Array = NDArray[np.float64]
-Choice = Sequence[int] | str
-"""``"kept-rows"``, or the rows to drop, from 1."""
+Choice = Sequence[int] | str | Mapping[str, float | tuple[float, float]]
+"""Rows to drop, from 1; ``"kept-rows"``; ``"minimum-norm"`` or ``"minimum-norm:length=L"``;
+compliances (m/N, or with rad/(N·m)) of joints by name."""
 Bodies = Sequence[str] | str
+NativeChoice = float | None | list[int] | list[tuple[str, float, float]]
 
 
 class Matrices(NamedTuple):
@@ -268,7 +270,7 @@ class Scene:
         tolerance: float | None = None,
         angle_tolerance: float | None = None,
         reactions: bool | Iterable[str] = True,
-        choose: Choice | None = None,
+        choose: Choice | Sequence[Choice] | None = None,
         drives: Mapping[str, DriveLaw] | None = None,
         forces: Mapping[str, BodyForce] | None = None,
         on_event: Callable[[Event], object] | None = None,
@@ -278,7 +280,11 @@ class Scene:
 
         ``reactions`` are all, none, or those with these names. Numbers that are not unique on
         their stretch of the run are NaN, unless ``choose`` says by which choice they are made:
-        ``"kept-rows"`` by the rows that the run keeps, or a list of rows to drop, from 1.
+        ``"kept-rows"`` by the rows that the run keeps, a list of rows to drop, from 1, or a choice
+        of :meth:`Analysis.reactions`: ``"minimum-norm"``, ``"minimum-norm:length=0.5"`` (m), or
+        compliances by name, as ``{"left": 1e-6, "right": (2e-6, 1e-3)}`` (m/N, and rad/(N·m)).
+        With a list of these choices ``run.choices`` has the numbers of each, and NaN stays NaN in
+        ``run.reactions``.
         ``on_event`` gets each :class:`Event` at the first row after it, ``on_row`` the time of
         each row; the run ends where one of them returns ``True``. Ctrl-C is heard on the main
         thread.
@@ -303,11 +309,13 @@ class Scene:
             drop=_drop(choose),
             reactions=_wanted(reactions),
         )
+        kept, choices = _chosen(choose)
         told = None if on_event is None else lambda text: on_event(Event(**json.loads(text)))
         laws, pushes = of_drives(drives), of_bodies(forces)
-        of = self._of.simulate(options, choose is not None, told, on_row, laws, pushes)
+        of = self._of.simulate(options, kept, choices, told, on_row, laws, pushes)
         again = {key: x for key, x in options.items() if key != "reactions"}
-        run = Run(of, self, {**again, "drives": drives, "forces": forces})
+        again = {**again, "choices": choices, "drives": drives, "forces": forces}
+        run = Run(of, self, again, isinstance(choose, (str, Mapping)) and not kept)
         stopped = of.stopped()
         if stopped is not None:
             stopped.run = run
@@ -320,8 +328,7 @@ class Scene:
         Returns the summary. The options are those of :meth:`simulate` but ``on_event`` and
         ``on_row``.
         """
-        if "choose" in options:
-            options["drop"] = _drop(options.pop("choose"))
+        _choose(options)
         _known(options)
         return self._into(directory, options, None)
 
@@ -330,15 +337,15 @@ class Scene:
     ) -> dict[str, Any]:
         own = dict(options)
         laws, pushes = of_drives(own.pop("drives", None)), of_bodies(own.pop("forces", None))
+        choices = own.pop("choices", [])
         place = os.fspath(directory)
-        summary = self._of.simulate_into(place, _options(**own), until, laws, pushes)
+        summary = self._of.simulate_into(place, _options(**own), choices, until, laws, pushes)
         document: dict[str, Any] = json.loads(summary)
         return document
 
     def report(self, path: str | os.PathLike[str], **options: Any) -> None:
         """Runs the scene and writes its page for any browser, also of a run that stops."""
-        if "choose" in options:
-            options["drop"] = _drop(options.pop("choose"))
+        _choose(options)
         _known(options)
         self._page(path, options, None)
 
@@ -459,7 +466,7 @@ def _options(**options: Any) -> dict[str, Any]:
 
 def _known(options: Mapping[str, Any]) -> None:
     """An unknown option is refused as an unknown keyword."""
-    known = [*_NONE, "drives", "forces"]
+    known = [*_NONE, "choices", "drives", "forces"]
     for name in options:
         if name not in known:
             near = _pfaff.nearest(name, known)
@@ -467,12 +474,54 @@ def _known(options: Mapping[str, Any]) -> None:
             raise TypeError(f"there is no option `{name}`{advice}")
 
 
-def _drop(choose: Choice | None) -> list[int] | None:
-    if choose is None or choose == "kept-rows":
+def _is_rows(choose: object) -> bool:
+    if isinstance(choose, (str, Mapping)) or not isinstance(choose, Iterable):
+        return False
+    return all(isinstance(row, (int, np.integer)) for row in choose)
+
+
+def _drop(choose: Choice | Sequence[Choice] | None) -> list[int] | None:
+    """Rows that the run drops."""
+    return [int(row) for row in choose] if _is_rows(choose) else None  # type: ignore
+
+
+def _chosen(choose: Choice | Sequence[Choice] | None) -> tuple[bool, list[NativeChoice]]:
+    """Whether numbers are those of the rows that the run keeps, and the other choices."""
+    if choose is None:
+        return False, []
+    if _is_rows(choose) or choose == "kept-rows":
+        return True, []
+    if isinstance(choose, (str, Mapping)):
+        return False, [_native(choose)]
+    return False, [_native(one) for one in choose]  # type: ignore
+
+
+def _native(choose: Choice) -> NativeChoice:
+    """A choice as the library takes it."""
+    if isinstance(choose, Mapping):
+        pairs = [(name, x if isinstance(x, tuple) else (x, 0.0)) for name, x in choose.items()]
+        return [(name, float(along), float(turn)) for name, (along, turn) in pairs]
+    if _is_rows(choose):
+        return [int(row) for row in choose]  # type: ignore
+    if choose == "minimum-norm":
         return None
-    if isinstance(choose, str):
-        raise wrong(f"choose is `{choose}`, need `kept-rows` or a list of rows, as [6, 21]")
-    return list(choose)
+    if isinstance(choose, str) and choose.startswith("minimum-norm:length="):
+        try:
+            return float(choose.partition("=")[2])
+        except ValueError:
+            pass
+    raise wrong(
+        f"choose is `{choose}`, need `minimum-norm`, `minimum-norm:length=L`, rows to drop, as"
+        " [6, 21], or compliances by name; alone also `kept-rows`"
+    )
+
+
+def _choose(options: dict[str, Any]) -> None:
+    """Puts rows to drop and other choices in place of ``choose``."""
+    if "choose" in options:
+        choose = options.pop("choose")
+        options["drop"] = _drop(choose)
+        options["choices"] = _chosen(choose)[1]
 
 
 def _wanted(reactions: bool | Iterable[str]) -> list[str] | None:

@@ -1,7 +1,7 @@
 //! The plan of one component: a set of bodies that affect each other.
 
 use model::{ConstraintId, Mechanism, Places};
-use solvability::Group;
+use solvability::{Choice, Extent, Group};
 
 use super::decisions::Decisions;
 use super::sizes::Sizes;
@@ -84,6 +84,12 @@ impl<'a> ComponentPlan<'a> {
                 own.map(ConstraintId)
             }),
         }
+    }
+
+    /// What belongs to it of a choice of the whole mechanism.
+    pub(crate) fn share_of_choice(&self, choice: &Choice) -> Choice {
+        let places = self.places().cloned();
+        choice.share(&places.map_or(Extent::Whole, Extent::Places))
     }
 
     /// Its places in the whole mechanism; `None` if it is the whole.

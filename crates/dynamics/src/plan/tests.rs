@@ -188,6 +188,7 @@ fn rows_that_nobody_wants_are_not_computed() {
         accelerations: false,
         reactions: Reactions::None,
         groups: Vec::new(),
+        choices: Vec::new(),
     };
     let plan = Plan::new(&p, &to(2.0), &wanted).expect("a plan");
     let mut times = Vec::new();
@@ -237,6 +238,7 @@ fn interpolated_rows_are_those_on_the_constraints_to_the_tolerance() {
             accelerations: false,
             reactions: Reactions::None,
             groups: Vec::new(),
+            choices: Vec::new(),
         };
         let plan = Plan::new(&p, &to(2.0), &wanted).expect("a plan");
         let mut states = Vec::new();

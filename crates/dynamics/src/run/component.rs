@@ -5,8 +5,8 @@ use std::time::Instant;
 use integrators::{IntegrationError, Interval, Options, OutputTimes, Rows};
 use model::System;
 use solvability::{
-    Group, ONE_PART, contradicting_drives_along, decide_dropping, drive_limit, generic,
-    no_finite_reactions,
+    CarriedChoices, Choice, Group, ONE_PART, contradicting_drives_along, decide_dropping,
+    drive_limit, generic, no_finite_reactions,
 };
 
 use super::caller::{ShowRow, Stop, Watch, named};
@@ -19,7 +19,7 @@ use crate::code::SceneCode;
 use crate::error::{MotionError, MotionFault};
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
-use crate::plan::{self, Plan};
+use crate::plan::{self, ComponentPlan, Plan};
 use crate::prepare::Prepared;
 
 /// The failure of a run that has not begun.
@@ -65,7 +65,10 @@ pub(super) fn run_component(
         .collect();
     let verdicts = (!wanted.reactions.is_empty())
         .then(|| RunVerdicts::new(&motion, prepared, options, &groups));
-    let equations = RunEquations::new(motion, prepared, options, (wanted, verdicts), stop);
+    let choices = carried_choices(plan, component, &wanted).map_err(not_begun)?;
+    let wanted = (wanted, verdicts);
+    let choices = (plan.choices.as_slice(), choices);
+    let equations = RunEquations::new(motion, prepared, options, wanted, choices, stop);
     let y0 = equations.y0();
     let interval = Interval {
         t0: 0.0,
@@ -119,6 +122,29 @@ pub(super) fn run_component(
     let error = at_singular_start(prepared, of_drives(prepared, options.t_end, error));
     let error = at_drive_limit(prepared, (t, &y), error);
     Err(Box::new(Failure { error, summary }))
+}
+
+/// What solves for the choices of a plan in one of its components; `None` if none is requested, or
+/// no reaction.
+fn carried_choices<'p>(
+    plan: &Plan<'_>,
+    component: &'p ComponentPlan<'_>,
+    wanted: &AtRows,
+) -> Result<Option<CarriedChoices<'p>>, MotionError> {
+    if plan.choices.is_empty() || wanted.reactions.is_empty() {
+        return Ok(None);
+    }
+    let Prepared {
+        mechanism,
+        q,
+        decision,
+        ..
+    } = component.prepared();
+    let choices = plan.choices.iter();
+    let choices = choices.map(|named| component.share_of_choice(&named.choice));
+    let choices: Vec<Choice> = choices.collect();
+    let carried = CarriedChoices::new(mechanism, (0.0, q), &decision.dropped, &choices)?;
+    Ok(Some(carried))
 }
 
 /// Within a stated tolerance data explain what joints miss where drives move them, so that no

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use integrators::{Delicate, Implicit, IntegrationError, Ode, StepEnd, StepInfo, Tolerance};
 use model::{Mechanism, System};
-use solvability::{Group, Looked, Stretches};
+use solvability::{CarriedChoices, Group, Looked, NamedChoice, Stretches};
 
 use super::by_time::ByTime;
 use super::caller::Stop;
@@ -42,6 +42,9 @@ pub(super) struct RunEquations<'m> {
     pub(super) record: Record,
     /// Output requested at rows.
     wanted: AtRows,
+    /// Choices requested at rows, with what solves for them.
+    choices: &'m [NamedChoice],
+    carried_choices: Option<CarriedChoices<'m>>,
     /// Verdicts on the way, if reactions are requested.
     verdicts: Option<RunVerdicts<'m>>,
     /// Linear systems of implicit methods, allocated by their first step.
@@ -90,6 +93,7 @@ impl<'m> RunEquations<'m> {
         prepared: &Prepared,
         options: &MotionOptions,
         (wanted, verdicts): (AtRows, Option<RunVerdicts<'m>>),
+        (choices, carried_choices): (&'m [NamedChoice], Option<CarriedChoices<'m>>),
         stop: &'m Stop<'m>,
     ) -> Self {
         let (q, v, mechanism) = (&prepared.q, &prepared.v, motion.mechanism());
@@ -99,6 +103,8 @@ impl<'m> RunEquations<'m> {
         let mut equations = Self {
             record: Record::new(mechanism, q, v),
             wanted,
+            choices,
+            carried_choices,
             verdicts,
             reduced: None,
             until: Until {
@@ -258,7 +264,9 @@ impl<'m> RunEquations<'m> {
             t_before,
             wanted: &self.wanted,
             motion: &mut self.motion,
+            choices: self.carried_choices.as_ref(),
             lambda: None,
+            chosen: None,
         };
         let events = &self.record.events[self.record.shown..];
         let shown = row(&mut Sample {
@@ -268,6 +276,7 @@ impl<'m> RunEquations<'m> {
             work,
             events,
             dropped: &dropped,
+            choices: self.choices,
             source: Source::Motion(source),
         });
         self.record.shown = self.record.events.len();

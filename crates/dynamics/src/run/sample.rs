@@ -1,7 +1,7 @@
 //! One row of output: a state, and values computed from it on request.
 
 use model::{Mechanism, Reaction, System};
-use solvability::Chosen;
+use solvability::{CarriedChoices, CarriedSolution, ChoiceError, Chosen, NamedChoice};
 
 use crate::error::MotionFault;
 use crate::events::Event;
@@ -22,7 +22,21 @@ pub struct Sample<'s, 'm> {
     pub events: &'s [Event],
     /// The rows (from 0) whose multipliers are zero by choice in this row of output.
     pub dropped: &'s [usize],
+    /// The choices that are requested besides.
+    pub choices: &'s [NamedChoice],
     pub(super) source: Source<'s, 'm>,
+}
+
+/// Reactions by a choice, at a row of output.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct ChosenReactions {
+    /// Multipliers of all rows, NaN as in [`Sample::multipliers`].
+    pub multipliers: Chosen<f64>,
+    /// Reactions of all joints and drives, NaN as in [`Sample::reactions`].
+    pub reactions: Chosen<Reaction>,
+    /// Why the choice selects no solution here; then all numbers are NaN.
+    pub refused: Option<ChoiceError>,
 }
 
 /// Source of the other values.
@@ -40,8 +54,12 @@ pub(super) struct OfMotion<'s, 'm> {
     pub(super) wanted: &'s AtRows,
     pub(super) motion: &'s mut KeptRowMotion<'m>,
     pub(super) known: Known,
+    /// What solves for the requested choices.
+    pub(super) choices: Option<&'s CarriedChoices<'m>>,
     /// Multipliers, once they were asked for.
     pub(super) lambda: Option<Vec<f64>>,
+    /// The same for each choice.
+    pub(super) chosen: Option<Vec<OfChoice>>,
 }
 
 /// How far the equations of a row have been solved; they are solved at most once.
@@ -69,6 +87,16 @@ pub(super) struct Values {
     pub(super) acceleration: Result<Vec<f64>, MotionFault>,
     pub(super) multipliers: Result<Vec<f64>, MotionFault>,
     pub(super) reactions: Result<Vec<Reaction>, MotionFault>,
+    /// By each requested choice.
+    pub(super) chosen: Result<Vec<OfChoice>, MotionFault>,
+}
+
+/// Numbers by a choice.
+#[derive(Clone)]
+pub(super) struct OfChoice {
+    pub(super) multipliers: Vec<f64>,
+    pub(super) reactions: Vec<Reaction>,
+    pub(super) refused: Option<ChoiceError>,
 }
 
 /// All requested values of a row, and its rows without multiplier.
@@ -102,7 +130,7 @@ impl Sample<'_, '_> {
     /// If the equations have no unique solution at this state.
     pub fn multipliers(&mut self) -> Result<Chosen<f64>, MotionFault> {
         let multipliers = match &mut self.source {
-            Source::Motion(source) => source.multipliers(self.q, self.v).map(<[f64]>::to_vec),
+            Source::Motion(source) => source.multipliers(self.q, self.v),
             Source::Several(values) => values.multipliers.clone(),
         };
         Ok(Chosen::new(multipliers?, self.dropped.to_vec()))
@@ -121,9 +149,28 @@ impl Sample<'_, '_> {
         };
         Ok(Chosen::new(reactions?, self.dropped.to_vec()))
     }
+
+    /// Multipliers and reactions by each of [`Self::choices`], of the same accelerations. What the
+    /// model determines is the same in all of them; allocates.
+    ///
+    /// # Errors
+    /// If the equations have no unique solution at this state.
+    pub fn chosen(&mut self) -> Result<Vec<ChosenReactions>, MotionFault> {
+        let chosen = match &mut self.source {
+            Source::Motion(source) => source.chosen(self.q, self.v).map(<[OfChoice]>::to_vec),
+            Source::Several(values) => values.chosen.clone(),
+        };
+        let each = chosen?.into_iter().zip(self.choices);
+        let each = each.map(|(own, choice)| ChosenReactions {
+            multipliers: Chosen::by(own.multipliers, choice),
+            reactions: Chosen::by(own.reactions, choice),
+            refused: own.refused,
+        });
+        Ok(each.collect())
+    }
 }
 
-impl OfMotion<'_, '_> {
+impl<'m> OfMotion<'_, 'm> {
     fn acceleration(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
         if self.wanted.accelerations {
             self.solve(q, v)
@@ -143,8 +190,15 @@ impl OfMotion<'_, '_> {
         Ok(a)
     }
 
-    /// Multipliers, computed at the first request.
-    fn multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<&[f64], MotionFault> {
+    /// The requested multipliers.
+    fn multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
+        let mut lambda = self.all_multipliers(q, v)?.to_vec();
+        self.leave_out(&mut lambda);
+        Ok(lambda)
+    }
+
+    /// Multipliers of all rows, computed at the first request; NaN if none are requested.
+    fn all_multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<&[f64], MotionFault> {
         let lambda = match self.lambda.take() {
             Some(lambda) => lambda,
             None => self.solve_multipliers(q, v)?,
@@ -153,8 +207,7 @@ impl OfMotion<'_, '_> {
     }
 
     fn solve_multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
-        let mechanism = self.motion.mechanism();
-        let mut lambda = vec![f64::NAN; mechanism.layout().rows()];
+        let mut lambda = self.no_multipliers();
         if self.wanted.reactions.is_empty() {
             return Ok(lambda);
         }
@@ -165,20 +218,36 @@ impl OfMotion<'_, '_> {
             let a = self.solve(q, v)?;
             self.motion.multipliers_for(&a, &mut lambda)?;
         }
-        if self.motion.equations.velocity.relative_pivot() < self.motion.watch.blind() {
-            lambda.fill(f64::NAN);
-        }
-        for (k, group) in mechanism.layout().groups.iter().enumerate() {
-            if !self.wants(k) {
-                group.rows.iter().for_each(|row| lambda[row] = f64::NAN);
-            }
-        }
+        self.blind(&mut lambda);
         Ok(lambda)
     }
 
+    fn no_multipliers(&self) -> Vec<f64> {
+        vec![f64::NAN; self.motion.mechanism().layout().rows()]
+    }
+
+    /// Kept rows that are nearly dependent at this instant have no multipliers.
+    fn blind(&self, lambda: &mut [f64]) {
+        if self.motion.equations.velocity.relative_pivot() < self.motion.watch.blind() {
+            lambda.fill(f64::NAN);
+        }
+    }
+
+    /// Leaves out what is not requested.
+    fn leave_out(&self, lambda: &mut [f64]) {
+        let groups = self.motion.mechanism().layout().groups.iter().enumerate();
+        for (_, group) in groups.filter(|(k, _)| !self.wants(*k)) {
+            group.rows.iter().for_each(|row| lambda[row] = f64::NAN);
+        }
+    }
+
     fn reactions(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<Reaction>, MotionFault> {
-        self.multipliers(q, v)?;
-        let lambda = self.lambda.as_deref().unwrap_or_default();
+        self.all_multipliers(q, v)?;
+        Ok(self.reactions_of(self.lambda.as_deref().unwrap_or_default()))
+    }
+
+    /// The requested reactions of these multipliers.
+    fn reactions_of(&self, lambda: &[f64]) -> Vec<Reaction> {
         let mechanism = self.motion.mechanism();
         let reactions = mechanism.reactions(self.motion.scratch());
         let mut block = Vec::new();
@@ -190,14 +259,68 @@ impl OfMotion<'_, '_> {
             }
         };
         let ids = mechanism.layout().constraint_ids().enumerate();
-        Ok(ids.map(reaction).collect())
+        ids.map(reaction).collect()
+    }
+
+    /// The numbers of each choice, computed at the first request.
+    fn chosen(&mut self, q: &[f64], v: &[f64]) -> Result<&[OfChoice], MotionFault> {
+        let chosen = match (self.chosen.take(), self.choices) {
+            (Some(chosen), _) => chosen,
+            (None, None) => Vec::new(),
+            (None, Some(choices)) => self.choose(choices, q, v)?,
+        };
+        Ok(self.chosen.insert(chosen))
+    }
+
+    /// Solves for the choices on the rows that the motion keeps.
+    fn choose(
+        &mut self,
+        choices: &CarriedChoices<'m>,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<Vec<OfChoice>, MotionFault> {
+        let mut multipliers = self.all_multipliers(q, v)?.to_vec();
+        self.motion.equations.factor_at(self.t_before, q)?;
+        if self.motion.equations.requested_rows.is_some() {
+            // Those asked for are nearly dependent here.
+            let mut a = vec![0.0; v.len()];
+            self.motion.solve_factored(v, &mut a)?;
+            self.motion.multipliers_for(&a, &mut multipliers)?;
+            self.blind(&mut multipliers);
+        }
+        let equations = &mut self.motion.equations;
+        let (at, rows) = (&equations.at, &mut equations.velocity);
+        let mut dependencies = Vec::new();
+        rows.all_dependencies(at, &mut dependencies)?;
+        let found = choices.at(&CarriedSolution {
+            t: self.t_before,
+            q,
+            scratch: &at.s,
+            dropped: &rows.dropped,
+            dependencies: &dependencies,
+            multipliers: &multipliers,
+        });
+        let numbers = found.into_iter().map(|found| {
+            let (mut multipliers, refused) = match found {
+                Ok(lambda) => (lambda, None),
+                Err(error) => (self.no_multipliers(), Some(error)),
+            };
+            self.leave_out(&mut multipliers);
+            OfChoice {
+                reactions: self.reactions_of(&multipliers),
+                multipliers,
+                refused,
+            }
+        });
+        Ok(numbers.collect())
     }
 
     fn values(&mut self, q: &[f64], v: &[f64]) -> Values {
         Values {
             acceleration: self.acceleration(q, v),
-            multipliers: self.multipliers(q, v).map(<[f64]>::to_vec),
+            multipliers: self.multipliers(q, v),
             reactions: self.reactions(q, v),
+            chosen: self.chosen(q, v).map(<[OfChoice]>::to_vec),
         }
     }
 

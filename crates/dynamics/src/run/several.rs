@@ -14,7 +14,7 @@ use solvability::Stretches;
 use super::caller::{ShowRow, Stop, Watch};
 use super::component::run_component;
 use super::permits::Permits;
-use super::sample::{RowValues, Sample, Source, Values, left_out};
+use super::sample::{OfChoice, RowValues, Sample, Source, Values, left_out};
 use super::summary::{ComponentSummary, Failure, Summary, WholeEvents};
 use crate::error::{MotionError, MotionFault};
 use crate::events::Event;
@@ -133,6 +133,14 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
             acceleration: Ok(vec![f64::NAN; layout.n_v]),
             multipliers: Ok(vec![f64::NAN; layout.rows()]),
             reactions: Ok(nobody.clone()),
+            chosen: Ok(vec![
+                OfChoice {
+                    multipliers: vec![f64::NAN; layout.rows()],
+                    reactions: nobody.clone(),
+                    refused: None,
+                };
+                plan.choices.len()
+            ]),
         };
         for (k, Link { places, rows }) in links.iter().enumerate() {
             // A component that has ended has no more rows.
@@ -152,6 +160,7 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
             gather(own.acceleration, &places.velocities, &mut all.acceleration);
             gather(own.multipliers, &places.rows, &mut all.multipliers);
             gather(own.reactions, &places.groups, &mut all.reactions);
+            gather_chosen(own.chosen, places, &mut all.chosen);
         }
         found.sort_by(|(_, a), (_, b)| a.time.total_cmp(&b.time));
         let found = found.iter().map(|(k, event)| whole.event(*k, event));
@@ -160,6 +169,7 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
         let shown = row(&mut Sample {
             t: time?,
             dropped: &without,
+            choices: &plan.choices,
             q: &q,
             v: &v,
             work,
@@ -182,6 +192,25 @@ fn gather<T: Copy>(
 ) {
     match (own, &mut *whole) {
         (Ok(own), Ok(whole)) => spread(&own, places, whole),
+        (Err(fault), Ok(_)) => *whole = Err(fault),
+        (_, Err(_)) => {}
+    }
+}
+
+/// The same for the numbers of choices; a component without reactions has none.
+fn gather_chosen(
+    own: Result<Vec<OfChoice>, MotionFault>,
+    places: &Places,
+    whole: &mut Result<Vec<OfChoice>, MotionFault>,
+) {
+    match (own, &mut *whole) {
+        (Ok(own), Ok(whole)) => {
+            for (own, whole) in own.into_iter().zip(whole) {
+                spread(&own.multipliers, &places.rows, &mut whole.multipliers);
+                spread(&own.reactions, &places.groups, &mut whole.reactions);
+                whole.refused = whole.refused.take().or(own.refused);
+            }
+        }
         (Err(fault), Ok(_)) => *whole = Err(fault),
         (_, Err(_)) => {}
     }

@@ -328,23 +328,32 @@ impl KeptRows {
         Ok(())
     }
 
-    /// Writes dependencies of the dropped rows on the kept ones, as [`Self::dependency`] does: of
-    /// each dropped row or, if there are many, of sums of all of them with random signs. The rows
-    /// must be factored.
+    /// Writes the dependency of each dropped row on the kept ones, as [`Self::dependency`] does.
+    /// The rows must be factored.
+    pub(crate) fn all_dependencies(
+        &mut self,
+        at: &Evaluation<'_>,
+        z: &mut Vec<Vec<f64>>,
+    ) -> Result<(), MotionFault> {
+        z.resize(self.dropped.len(), vec![0.0; at.mechanism.layout().rows()]);
+        for (k, z) in z.iter_mut().enumerate() {
+            self.dependency(at, self.dropped[k], z)?;
+            self.refine(at, z)?;
+        }
+        Ok(())
+    }
+
+    /// Like [`Self::all_dependencies`], but if there are many, of sums of all dropped rows with
+    /// random signs.
     pub(crate) fn dependencies(
         &mut self,
         at: &Evaluation<'_>,
         z: &mut Vec<Vec<f64>>,
     ) -> Result<(), MotionFault> {
-        let count = self.dropped.len().min(CARRIED_VECTORS);
-        z.resize(count, vec![0.0; at.mechanism.layout().rows()]);
         if self.dropped.len() <= CARRIED_VECTORS {
-            for (k, z) in z.iter_mut().enumerate() {
-                self.dependency(at, self.dropped[k], z)?;
-                self.refine(at, z)?;
-            }
-            return Ok(());
+            return self.all_dependencies(at, z);
         }
+        z.resize(CARRIED_VECTORS, vec![0.0; at.mechanism.layout().rows()]);
         for (seed, z) in (1..).zip(z.iter_mut()) {
             self.imply_sum(at, seed).map_err(|e| self.fault(at, e))?;
             for (k, &i) in self.dropped.iter().enumerate() {

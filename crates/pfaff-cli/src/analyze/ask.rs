@@ -8,10 +8,10 @@ use pfaff::report::documents::{
 use pfaff::solvability::{Allowed, EliminationError, UnitError, Verdict};
 use pfaff::{ConfigurationAnalysis, StudyError};
 
-use super::choice;
 use super::deletions::HINTS;
 use super::point;
 use crate::args::Analyze;
+use crate::choice;
 use crate::input::Source;
 use crate::output::Failure;
 
@@ -31,11 +31,8 @@ pub(super) fn document(
     let wanted = arguments.make_unique.iter();
     let wanted: Result<Vec<_>, _> = wanted.map(|name| configuration.reaction(name)).collect();
     let wanted = wanted.map_err(failure)?;
-    let choices = arguments.choose.iter();
-    let choices: Result<Vec<_>, _> = choices
-        .map(|text| choice::choice(text, source, configuration))
-        .collect();
-    let choices = choices?;
+    let reaction = |name: &str| configuration.reaction(name);
+    let choices = choice::choices(&arguments.choose, source, (layout.rows(), &reaction))?;
     let about = arguments.about.as_deref();
     let about = about.map(|text| point::point(text, configuration));
     let about = about.transpose()?;

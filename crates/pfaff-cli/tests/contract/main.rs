@@ -7,6 +7,7 @@ mod analyze;
 mod bad_input;
 mod book;
 mod causes;
+mod chosen;
 mod cold_start;
 mod console;
 mod diff;

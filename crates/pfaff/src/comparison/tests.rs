@@ -33,6 +33,7 @@ fn compared(scene: &str) -> (Study, Vec<Comparison>) {
             work: sample.work,
             reactions: sample.reactions()?.as_chosen().to_vec(),
             multipliers: sample.multipliers()?.as_chosen().to_vec(),
+            chosen: Vec::new(),
         });
         Ok(ControlFlow::Continue(()))
     });
@@ -41,7 +42,7 @@ fn compared(scene: &str) -> (Study, Vec<Comparison>) {
     let analysis = analyse(mechanism, 0.0, &study.prepared.q).expect("decided");
     let (comparisons, left_out) = {
         let is_open = |k: usize| analysis.reactions[k].wrench.verdict == Verdict::NotUnique;
-        compare(mechanism, &recording, is_open, None)
+        compare(mechanism, &recording, is_open, &["this run".to_owned()])
     };
     assert_eq!(left_out, [""; 0]);
     (study, comparisons)

@@ -7,7 +7,7 @@ use solvability::{Group, Term};
 use crate::error::StudyError;
 
 /// The joint or drive with this name.
-pub(super) fn reaction(
+pub(crate) fn reaction(
     scene: &Scene,
     mechanism: &Mechanism,
     name: &str,

@@ -101,6 +101,7 @@ impl Begun {
             accelerations: false,
             reactions: Reactions::Of(watch.names()),
             groups: Vec::new(),
+            choices: Vec::new(),
         };
         let row = |sample: &mut Sample<'_, '_>| {
             watch.see(sample)?;

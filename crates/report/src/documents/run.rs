@@ -39,7 +39,9 @@ pub struct Run<'a> {
     /// Number of rows in its tables.
     pub rows: usize,
     /// Names of its files.
-    pub files: &'a [&'static str],
+    pub files: &'a [String],
+    /// The rows without numbers of each choice of the plan.
+    pub gaps: &'a [Option<Gap>],
 }
 
 /// How a run ended.
@@ -74,7 +76,7 @@ pub struct RunDocument {
     /// Number of rows in the tables.
     pub rows: usize,
     /// Names of the files of the run.
-    pub files: Vec<&'static str>,
+    pub files: Vec<String>,
     /// Accepted steps.
     pub steps: u64,
     /// Rejected steps.
@@ -118,8 +120,8 @@ pub struct RunDocument {
     pub groups: Named<RunGroupDocument>,
     /// Instants at which another verdict holds than on their stretch of the run.
     pub special: Vec<SpecialDocument>,
-    /// The choices by which the numbers of `choice.csv` were made; empty if every number is
-    /// determined.
+    /// The choices by which the numbers of `choice.csv` and of further files were made; empty if
+    /// every number is determined.
     pub choice: Vec<ChoiceDocument>,
     /// Decisions before the run, in short.
     pub plan: Named<String>,
@@ -176,31 +178,91 @@ pub struct EventDocument {
     pub text: String,
 }
 
-/// The choice by which the numbers of `choice.csv` were made, on an interval of time.
+/// The choice by which the numbers of a table were made, on an interval of time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ChoiceDocument {
+    /// The table; absent if there is one only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
     /// Time of its first row (s).
     pub from: f64,
     /// Time up to which it holds (s).
     pub to: f64,
-    /// Its name: `kept-rows`, the multipliers of some rows were set to zero.
-    pub name: &'static str,
-    /// These rows.
+    /// Its name: `kept-rows` if the run chooses the rows whose multipliers are zero; else that of
+    /// the requested choice.
+    pub name: String,
+    /// Rows whose multipliers are zero by choice.
     pub deleted_rows: Vec<usize>,
+    /// Rows of the table at which the choice selects no solution; their cells are empty.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gap: Option<Gap>,
+}
+
+/// Rows of a table at which a choice selects no solution.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Gap {
+    /// How many there are.
+    pub rows: usize,
+    /// The time of the first (s).
+    pub first: f64,
+    /// Why there is no solution there.
+    pub reason: String,
+}
+
+impl Gap {
+    /// No row yet; the first will be at this time.
+    #[must_use]
+    pub fn at(first: f64, reason: String) -> Self {
+        Self {
+            rows: 0,
+            first,
+            reason,
+        }
+    }
+}
+
+/// The name of the table of a choice, counted from 0.
+#[must_use]
+pub fn choice_file(k: usize) -> String {
+    match k {
+        0 => "choice.csv".to_owned(),
+        k => format!("choice_{}.csv", k + 1),
+    }
 }
 
 impl ChoiceDocument {
-    /// The choices of a run, in the order of time.
-    fn of(summary: &Summary) -> Vec<Self> {
+    /// The choices of a run, file by file in the order of time.
+    fn of(run: &Run<'_>) -> Vec<Self> {
+        let (choices, summary) = (&run.plan.choices, run.summary);
+        if choices.is_empty() {
+            return Self::of_kept_rows(summary);
+        }
+        let several = choices.len() > 1;
+        let each = choices.iter().enumerate();
+        each.map(|(k, named)| Self {
+            file: several.then(|| choice_file(k)),
+            from: 0.0,
+            to: summary.t,
+            name: named.label.to_string(),
+            deleted_rows: from_one(named.choice.eliminated()),
+            gap: run.gaps.get(k).cloned().flatten(),
+        })
+        .collect()
+    }
+
+    /// The choices of the rows that a run keeps, in the order of time.
+    fn of_kept_rows(summary: &Summary) -> Vec<Self> {
         let all = &summary.dropped;
         let ends = all.iter().skip(1).map(|next| next.from).chain([summary.t]);
         let each = all.iter().zip(ends);
         each.map(|(dropped, to)| Self {
+            file: None,
             from: dropped.from,
             to,
-            name: "kept-rows",
+            name: "kept-rows".to_owned(),
             deleted_rows: from_one(&dropped.rows),
+            gap: None,
         })
         .collect()
     }
@@ -208,6 +270,9 @@ impl ChoiceDocument {
 
 impl fmt::Display for ChoiceDocument {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.name != "kept-rows" {
+            return f.write_str(&self.name);
+        }
         let rows: Vec<String> = self.deleted_rows.iter().map(usize::to_string).collect();
         let word = if rows.len() == 1 { "row" } else { "rows" };
         write!(f, "{}, {word} {} deleted", self.name, listed(&rows))
@@ -219,7 +284,7 @@ impl RunDocument {
     #[must_use]
     pub fn kept(&self) -> String {
         let tables = self.files.iter().filter(|name| name.ends_with(".csv"));
-        let tables: Vec<&str> = tables.copied().collect();
+        let tables: Vec<&str> = tables.map(String::as_str).collect();
         let rows = match (self.rows, tables.as_slice()) {
             (_, []) => "summary.json".to_owned(),
             (1, tables) => format!("1 row in {}", tables.join(" and ")),
@@ -280,7 +345,7 @@ impl RunDocument {
             groups,
             special: verdicts.map_or_else(Vec::new, |v| v.special(mechanism.layout())),
             choice: if has_choice {
-                ChoiceDocument::of(summary)
+                ChoiceDocument::of(run)
             } else {
                 Vec::new()
             },

@@ -252,49 +252,74 @@ pub fn write_determined(
     columns: &[ReactionColumn],
     stretches: &Stretches,
 ) -> Result<bool, TableError> {
-    let mut out = io::BufWriter::new(out);
-    let copied = copy_determined(all, &mut out, columns, stretches);
-    let copied = copied.and_then(|empty| out.flush().map(|()| empty));
+    let copied = copy(all, None::<&[u8]>, out, columns, stretches);
     copied.map_err(|source| TableError::Write {
         table: "reactions.csv",
         source,
     })
 }
 
-fn copy_determined(
+/// Copies a table of all numbers with those of a choice, in a table of the same rows and columns,
+/// in place of those that are not determined on their stretch.
+///
+/// # Errors
+/// [`TableError::Write`]: reading or writing failed.
+pub fn write_chosen(
+    all: impl BufRead,
+    chosen: impl BufRead,
+    out: impl Write,
+    columns: &[ReactionColumn],
+    stretches: &Stretches,
+) -> Result<(), TableError> {
+    let copied = copy(all, Some(chosen), out, columns, stretches);
+    copied.map(|_| ()).map_err(|source| TableError::Write {
+        table: "choice.csv",
+        source,
+    })
+}
+
+/// Copies a table; cells that are not determined are those of the other table, or empty. Returns
+/// whether there are any.
+fn copy(
     mut all: impl BufRead,
-    out: &mut impl Write,
+    mut chosen: Option<impl BufRead>,
+    out: impl Write,
     columns: &[ReactionColumn],
     stretches: &Stretches,
 ) -> io::Result<bool> {
+    let mut out = io::BufWriter::new(out);
     let tracks: Vec<Option<&VerdictTrack>> = columns
         .iter()
         .map(|c| c.quantity.verdicts(stretches))
         .collect();
-    let mut line = String::new();
-    let mut has_empty = false;
+    let (mut line, mut other) = (String::new(), String::new());
+    let mut has_open = false;
     let mut is_header = true;
     loop {
         line.clear();
+        other.clear();
+        if let Some(chosen) = &mut chosen {
+            chosen.read_line(&mut other)?;
+        }
         if all.read_line(&mut line)? == 0 {
-            return Ok(has_empty);
+            out.flush()?;
+            return Ok(has_open);
         }
         if std::mem::take(&mut is_header) {
             out.write_all(line.as_bytes())?;
             continue;
         }
         let mut cells = line.trim_end_matches('\n').split(',');
+        let mut others = other.trim_end_matches('\n').split(',').skip(1);
         let time = cells.next().unwrap_or_default();
         out.write_all(time.as_bytes())?;
         let t: f64 = time.parse().unwrap_or(f64::NAN);
         for (cell, track) in cells.zip(&tracks) {
+            let other = others.next().unwrap_or_default();
             let is_determined = track.is_none_or(|track| track.at(t).is_unique());
+            has_open |= !is_determined;
             out.write_all(b",")?;
-            if is_determined {
-                out.write_all(cell.as_bytes())?;
-            } else {
-                has_empty = true;
-            }
+            out.write_all(if is_determined { cell } else { other }.as_bytes())?;
         }
         out.write_all(b"\n")?;
     }

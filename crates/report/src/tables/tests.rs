@@ -8,7 +8,8 @@ use model::{
 use solvability::{Chosen, Group, Stretches, Term, Verdict, VerdictStretch, VerdictTrack};
 
 use super::{
-    ReactionTable, Selection, TableError, TrajectoryTable, columns_of_reactions, write_determined,
+    ReactionTable, Selection, TableError, TrajectoryTable, columns_of_reactions, write_chosen,
+    write_determined,
 };
 
 /// A driven wheel carrier with a knife edge, and names that need quotes.
@@ -132,6 +133,27 @@ fn cells_are_empty_where_nothing_is_determined() {
                     1.0,3.0,0.5,-3.0,8.0,\n\
                     2.0,3.0,0.5,-3.0,8.0,17.0\n";
     assert_eq!(text(determined), expected);
+    // The table of a choice has its own numbers where nothing is determined, and nowhere else.
+    let mut table =
+        ReactionTable::new("choice.csv", Vec::new(), &carrier, columns.clone()).expect("writes");
+    let row = Chosen::new(
+        reactions()
+            .map(|r| Reaction {
+                force: [-4.0; 3],
+                ..r
+            })
+            .to_vec(),
+        vec![],
+    );
+    for t in [0.0, 1.0, 2.0] {
+        let sum = Chosen::new(vec![5.0], vec![]);
+        table.row(t, &row, &sum).expect("writes");
+    }
+    let (own, columns) = table.finish().expect("writes");
+    let mut chosen = Vec::new();
+    let written = write_chosen(&all[..], &own[..], &mut chosen, &columns, &stretches);
+    written.expect("writes");
+    assert_eq!(text(chosen), expected.replacen(",,", ",-4.0,", 1));
 }
 
 #[test]

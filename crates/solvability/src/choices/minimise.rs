@@ -5,6 +5,7 @@ use crate::limits::CHOICE_SOLVES;
 use linalg::{Matrix, PivotedQr};
 
 use super::ChoiceError;
+use super::free::FreeMultipliers;
 use crate::groups::{LinearForm, check, check_finite};
 use crate::matrices::Solvability;
 
@@ -42,7 +43,16 @@ pub fn minimise(
     lambda_0: &[f64],
     terms: &[(LinearForm, f64)],
 ) -> Result<Vec<f64>, ChoiceError> {
-    let z = solvability.null_space();
+    minimise_in(&FreeMultipliers::of(solvability), lambda_0, terms)
+}
+
+/// As [`minimise`].
+pub(super) fn minimise_in(
+    free: &FreeMultipliers<'_>,
+    lambda_0: &[f64],
+    terms: &[(LinearForm, f64)],
+) -> Result<Vec<f64>, ChoiceError> {
+    let z = &free.z;
     check("multipliers", lambda_0, z.nrows())?;
     for (form, weight) in terms {
         check("linear form", form.coefficients(), z.nrows())?;
@@ -50,13 +60,9 @@ pub fn minimise(
             return Err(ChoiceError::Weight { value: *weight });
         }
     }
-    let images: Vec<(Vec<f64>, f64)> = terms
-        .iter()
-        .map(|(form, _)| form.image(solvability))
-        .collect();
+    let images: Vec<(Vec<f64>, f64)> = terms.iter().map(|(form, _)| form.image(free)).collect();
     let rows: Vec<&[f64]> = images.iter().map(|(image, _)| &image[..]).collect();
-    let tolerance = rank::support_tolerance(solvability.decision());
-    let visible = independent_columns(&rows, z.ncols(), tolerance);
+    let visible = independent_columns(&rows, z.ncols(), free.tolerance);
 
     let roots: Vec<f64> = terms.iter().map(|(_, weight)| weight.sqrt()).collect();
     let scales: Vec<f64> = roots.iter().zip(&images).map(|(r, i)| r * i.1).collect();
@@ -66,12 +72,14 @@ pub fn minimise(
     });
     check_finite("weighted forms", weighted.as_slice())?;
     let qr = PivotedQr::of_columns(&weighted);
-    let determined = count(&qr, tolerance * largest);
+    let determined = count(&qr, free.tolerance * largest);
     if determined < visible.len() {
         return Err(ChoiceError::Indeterminate {
             free: visible.len() - determined,
         });
     }
+    let columns = qr.permutation().iter().map(|&k| visible[k]);
+    let columns: Vec<usize> = columns.collect();
     let mut lambda = lambda_0.to_vec();
     for _ in 0..CHOICE_SOLVES {
         let pairs = terms.iter().zip(&roots);
@@ -81,11 +89,7 @@ pub fn minimise(
         qr.q_transpose_mul(&mut y);
         y.truncate(visible.len());
         qr.solve_r(&mut y);
-        for (i, l) in lambda.iter_mut().enumerate() {
-            let columns = qr.permutation().iter().map(|&k| z[(i, visible[k])]);
-            let change: f64 = columns.zip(&y).map(|(z, y)| z * y).sum();
-            *l -= solvability.decision().scaling.row_factor(i) * change;
-        }
+        free.leave(&mut lambda, &columns, &y);
     }
     Ok(lambda)
 }

@@ -4,6 +4,7 @@
 use linalg::Matrix;
 
 use super::error::{RequestError, check_finite};
+use crate::choices::FreeMultipliers;
 use crate::matrices::Solvability;
 use crate::verdict::Judgement;
 
@@ -158,13 +159,10 @@ impl LinearForm {
     /// `ℓᵀ·Ẑ / ‖sizes‖` for an orthonormal basis Ẑ of the left null space of the equilibrated
     /// matrix, and the norm that was divided by (1 for a form without terms): the margin as a
     /// vector.
-    pub(crate) fn image(&self, solvability: &Solvability) -> (Vec<f64>, f64) {
-        let (scaling, z) = (&solvability.decision().scaling, solvability.null_space());
+    pub(crate) fn image(&self, free: &FreeMultipliers<'_>) -> (Vec<f64>, f64) {
         let scaled = |x: &[f64]| -> Vec<f64> {
-            x.iter()
-                .enumerate()
-                .map(|(i, x)| x * scaling.row_factor(i))
-                .collect()
+            let pairs = x.iter().zip(free.row_factor.iter());
+            pairs.map(|(x, factor)| x * factor).collect()
         };
         let size = match scaled(&self.sizes)
             .iter()
@@ -175,7 +173,7 @@ impl LinearForm {
             0.0 => 1.0,
             size => size,
         };
-        let image = z.transpose_times(&scaled(&self.coefficients));
+        let image = free.z.transpose_times(&scaled(&self.coefficients));
         (image.iter().map(|x| x / size).collect(), size)
     }
 

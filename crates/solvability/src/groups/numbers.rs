@@ -56,6 +56,6 @@ impl<'m> GroupNumbers<'m> {
                 values.extend(numbers.map(|(_, form)| form.value(multipliers.as_chosen())));
             }
         }
-        Ok(Chosen::new(values, multipliers.dropped().to_vec()))
+        Ok(multipliers.with(values))
     }
 }

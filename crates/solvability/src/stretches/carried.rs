@@ -8,7 +8,7 @@
 
 use std::borrow::Cow;
 
-use linalg::{Matrix, PivotedQr};
+use linalg::Matrix;
 use model::{ConstraintId, Known, Mechanism, Scratch, System};
 use rank::RankStatus;
 
@@ -18,9 +18,9 @@ use crate::certificate::Rows;
 use crate::error::AnalysisError;
 use crate::groups::{Group, LinearForm, ReactionForms, RequestError};
 use crate::limits::ROWS_MAX;
-use crate::matrices::{self, Basis, QueryError, Solvability};
+use crate::matrices::{self, Basis, QueryError, Solvability, orthonormal};
 use crate::mechanism::component_map;
-use crate::parts::{Extent, Partition};
+use crate::parts::{Extent, open_parts};
 use crate::pose::evaluated;
 use crate::sparse::Decided;
 use crate::verdict::Verdict;
@@ -87,36 +87,18 @@ impl<'m> CarriedVerdicts<'m> {
         if dropped.is_empty() {
             return None;
         }
-        let mut parts = Vec::new();
-        let sets = match Partition::of(mechanism, t, q) {
-            Partition::One => vec![None],
-            Partition::Several(sets) => sets.into_iter().map(Some).collect(),
-        };
-        for set in sets {
-            let (own, extent) = match set {
-                None => (Cow::Borrowed(mechanism), Extent::Whole),
-                Some(groups) => {
-                    let part = mechanism.part_of_groups(&groups);
-                    (Cow::Owned(part.mechanism), Extent::Places(part.places))
-                }
-            };
-            let count = own.layout().rows();
-            let rows: Vec<usize> = (0..count).map(|k| extent.row(k)).collect();
-            let redundancy = dropped
-                .iter()
-                .filter(|row| extent.own_row(**row).is_some())
-                .count();
-            if redundancy > 0 {
-                parts.push(OpenPart {
-                    extent,
-                    mechanism: own,
-                    rows,
-                    redundancy,
-                    known: None,
-                    open: 0,
-                });
-            }
-        }
+        let open = open_parts(mechanism, (t, q), dropped).into_iter();
+        let parts = open.map(|(extent, mechanism, redundancy)| OpenPart {
+            rows: (0..mechanism.layout().rows())
+                .map(|k| extent.row(k))
+                .collect(),
+            extent,
+            mechanism,
+            redundancy,
+            known: None,
+            open: 0,
+        });
+        let parts = parts.collect();
         let mut carried = Self {
             mechanism,
             size: model::start::scene_size(mechanism, q),
@@ -371,12 +353,10 @@ impl OpenPart<'_> {
         accuracy: &Accuracy,
     ) -> Basis {
         let mut known = accuracy.known.clone();
-        let (m, count) = (self.rows.len(), at.dependencies.len());
-        let scaled = Matrix::from_fn(m, count, |i, j| {
-            at.dependencies[j][self.rows[i]] / known.row_factor[i]
-        });
-        let columns = count.min(self.redundancy);
-        let z = PivotedQr::of_columns(&scaled).q_columns(0..columns);
+        let m = self.rows.len();
+        let own: Vec<&[f64]> = at.dependencies.iter().map(Vec::as_slice).collect();
+        let columns = own.len().min(self.redundancy);
+        let z = orthonormal(&own, &self.rows, &known.row_factor, columns);
         // Dependencies may be almost parallel: what their orthonormal vectors miss is more.
         let missed = (0..columns).map(|j| self.missed(whole, at, (&z, j), accuracy));
         let off = missed.fold(0.0, f64::max) / accuracy.sigma.min(1.0);

@@ -2,15 +2,15 @@
 
 use std::collections::HashSet;
 
-use pfaff::ConfigurationAnalysis;
-use pfaff::model::System;
+use pfaff::StudyError;
+use pfaff::model::ConstraintId;
 use pfaff::solvability::{Allowed, Choice, Compliance, NormWeights};
 
 use crate::input::{Source, rows_from_zero};
 use crate::output::Failure;
 
 /// Rows that `--allow` permits to be deleted, in a mechanism with this number of rows.
-pub(super) fn allowed(text: &str, rows: usize) -> Result<Allowed, Failure> {
+pub(crate) fn allowed(text: &str, rows: usize) -> Result<Allowed, Failure> {
     match (text, text.strip_prefix("rows:")) {
         ("sensible", _) => Ok(Allowed::Sensible),
         ("whole", _) => Ok(Allowed::Whole),
@@ -22,12 +22,20 @@ pub(super) fn allowed(text: &str, rows: usize) -> Result<Allowed, Failure> {
     }
 }
 
-/// One choice of `--choose`.
-pub(super) fn choice(
-    text: &str,
+/// What choices refer to: the number of rows of a mechanism, and its joints and drives by name.
+pub(crate) type Named<'a> = (usize, &'a dyn Fn(&str) -> Result<ConstraintId, StudyError>);
+
+/// The choices of `--choose`.
+pub(crate) fn choices(
+    texts: &[String],
     source: &Source,
-    configuration: &ConfigurationAnalysis<'_>,
-) -> Result<Choice, Failure> {
+    named: Named<'_>,
+) -> Result<Vec<Choice>, Failure> {
+    let each = texts.iter().map(|text| choice(text, source, named));
+    each.collect()
+}
+
+fn choice(text: &str, source: &Source, (rows, reaction): Named<'_>) -> Result<Choice, Failure> {
     let (kind, rest) = match text.split_once(':') {
         Some((kind, rest)) => (kind, Some(rest)),
         None => (text, None),
@@ -49,13 +57,10 @@ pub(super) fn choice(
         ("compliance", Some(rest)) => {
             let joints = rest
                 .split(',')
-                .map(|term| compliance(text, term, source, configuration));
+                .map(|term| compliance(text, term, source, reaction));
             Ok(Choice::Compliance(joints.collect::<Result<_, _>>()?))
         }
-        ("drop", Some(rest)) => {
-            let rows = configuration.mechanism.layout().rows();
-            Ok(Choice::Elimination(row_list("--choose drop", rest, rows)?))
-        }
+        ("drop", Some(rest)) => Ok(Choice::Elimination(row_list("--choose drop", rest, rows)?)),
         ("compliance", None) => Err(wrong(
             text,
             "joints with compliances, as `compliance:W3=1e-6,W4=2e-6`",
@@ -77,14 +82,12 @@ fn compliance(
     text: &str,
     term: &str,
     source: &Source,
-    configuration: &ConfigurationAnalysis<'_>,
+    reaction: &dyn Fn(&str) -> Result<ConstraintId, StudyError>,
 ) -> Result<Compliance, Failure> {
     let expected =
         "NAME=COMPLIANCE in m/N, or NAME=COMPLIANCE/ROTATION with rad/(N·m), finite numbers ≥ 0";
     let (name, numbers) = term.rsplit_once('=').ok_or_else(|| wrong(text, expected))?;
-    let reaction = configuration
-        .reaction(name.trim())
-        .map_err(|e| source.failure(e))?;
+    let reaction = reaction(name.trim()).map_err(|e| source.failure(e))?;
     let number = |word: &str| {
         let x = word.trim().parse::<f64>().ok();
         x.filter(|x| x.is_finite() && *x >= 0.0).ok_or_else(|| {

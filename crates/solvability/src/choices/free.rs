@@ -1,0 +1,165 @@
+//! All solutions `λ₀ + Z·y` at one pose, and those of them that a rule selects.
+
+use std::borrow::Cow;
+
+use linalg::{Matrix, PivotedQr};
+use model::{ConstraintId, RowRanges, System};
+
+use super::minimise::{independent_columns, minimise_in};
+use super::{ChoiceError, Compliance, NormWeights};
+use crate::groups::{LinearForm, ReactionForms, RequestError};
+use crate::limits::CHOICE_SOLVES;
+use crate::matrices::Solvability;
+
+/// The directions in which multipliers are free.
+pub(crate) struct FreeMultipliers<'a> {
+    /// Orthonormal basis of the left null space of the equilibrated rows, m × p.
+    pub(crate) z: Cow<'a, Matrix>,
+    /// Row factors of the equilibration, D_r.
+    pub(crate) row_factor: Cow<'a, [f64]>,
+    /// Largest coefficient that counts as zero.
+    pub(crate) tolerance: f64,
+}
+
+impl<'a> FreeMultipliers<'a> {
+    /// Those of a matrix.
+    pub(crate) fn of(solvability: &'a Solvability) -> Self {
+        Self {
+            z: Cow::Borrowed(solvability.null_space()),
+            row_factor: Cow::Borrowed(solvability.row_factors()),
+            tolerance: rank::support_tolerance(solvability.decision()),
+        }
+    }
+
+    /// `λ − Z·(Z_D)⁻¹·λ_D`: the solution that is zero, exactly, in the rows D, which determine y.
+    pub(crate) fn eliminated(&self, lambda: &[f64], rows: &[usize]) -> Vec<f64> {
+        let qr = PivotedQr::of_columns(&self.z.select_rows(rows));
+        let mut lambda = lambda.to_vec();
+        for _ in 0..CHOICE_SOLVES {
+            let own = rows.iter().map(|&i| lambda[i] / self.row_factor[i]);
+            let mut y: Vec<f64> = own.collect();
+            qr.q_transpose_mul(&mut y);
+            qr.solve_r(&mut y);
+            self.leave(&mut lambda, qr.permutation(), &y);
+        }
+        rows.iter().for_each(|&i| lambda[i] = 0.0);
+        lambda
+    }
+
+    /// `λ − Z·y` for these columns of Z.
+    pub(super) fn leave(&self, lambda: &mut [f64], columns: &[usize], y: &[f64]) {
+        for (i, l) in lambda.iter_mut().enumerate() {
+            let terms = columns.iter().zip(y);
+            let change: f64 = terms.map(|(&k, y)| self.z[(i, k)] * y).sum();
+            *l -= self.row_factor[i] * change;
+        }
+    }
+}
+
+/// The reactions at a pose, with the directions in which their multipliers are free.
+pub(crate) struct Choosing<'a> {
+    pub(crate) reactions: &'a ReactionForms<'a>,
+    pub(crate) free: FreeMultipliers<'a>,
+    /// `C_Xᵀ·Z_X` of equilibrated rows.
+    pub(crate) b_x: Box<dyn Fn(&RowRanges) -> Result<Matrix, RequestError> + 'a>,
+}
+
+impl Choosing<'_> {
+    /// The λ of least norm with these weights.
+    pub(crate) fn least_norm(
+        &self,
+        lambda_0: &[f64],
+        w: NormWeights,
+    ) -> Result<Vec<f64>, ChoiceError> {
+        for value in [w.force, w.torque] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(ChoiceError::NormWeight { value });
+            }
+        }
+        let forces = self.reactions.mechanism.space().forces();
+        self.least(lambda_0, |_, component| {
+            let w = if forces.contains(&component) {
+                w.force
+            } else {
+                w.torque
+            };
+            w * w
+        })
+    }
+
+    /// The λ of elastic supports with these compliances.
+    pub(crate) fn elastic(
+        &self,
+        lambda_0: &[f64],
+        joints: &[Compliance],
+    ) -> Result<Vec<f64>, ChoiceError> {
+        let mechanism = &self.reactions.mechanism;
+        let space = mechanism.space();
+        let rigid = ([0.0; 3], 0.0);
+        let mut of_joint = vec![rigid; mechanism.layout().groups.len()];
+        for joint in joints {
+            self.reactions.check_id(joint.reaction)?;
+            let (along, rotation) = &mut of_joint[joint.reaction.0];
+            let totals = along.iter_mut().chain([rotation]);
+            for (total, compliance) in totals.zip(joint.along.into_iter().chain([joint.rotation])) {
+                if !(compliance.is_finite() && compliance >= 0.0) {
+                    return Err(ChoiceError::Weight { value: compliance });
+                }
+                // Compliances of springs in series add up.
+                *total += compliance;
+            }
+        }
+        self.least(lambda_0, |id, component| {
+            let (along, rotation) = of_joint[id.0];
+            if space.forces().contains(&component) {
+                along[space.axis_of(component)]
+            } else {
+                rotation
+            }
+        })
+    }
+
+    /// Minimises the weighted sum of squares of all wrenches.
+    fn least(
+        &self,
+        lambda_0: &[f64],
+        weights: impl Fn(ConstraintId, usize) -> f64,
+    ) -> Result<Vec<f64>, ChoiceError> {
+        let groups = &self.reactions.mechanism.layout().groups;
+        let mut terms = Vec::new();
+        for (k, group) in groups.iter().enumerate() {
+            let id = ConstraintId(k);
+            for c in group.components() {
+                let form = self.reactions.component(id, group.space.components()[c])?;
+                terms.push((form, weights(id, c)));
+            }
+        }
+        self.check_visible(&terms)?;
+        minimise_in(&self.free, lambda_0, &terms)
+    }
+
+    /// Checks that every free direction changes at least one of the wrenches.
+    fn check_visible(&self, terms: &[(LinearForm, f64)]) -> Result<(), ChoiceError> {
+        let (p, tolerance) = (self.free.z.ncols(), self.free.tolerance);
+        let images: Vec<Vec<f64>> = terms
+            .iter()
+            .map(|(form, _)| form.image(&self.free).0)
+            .collect();
+        let rows: Vec<&[f64]> = images.iter().map(Vec::as_slice).collect();
+        let visible = independent_columns(&rows, p, tolerance).len();
+        if visible == p {
+            return Ok(());
+        }
+        for group in &self.reactions.mechanism.layout().groups {
+            let b_x = (self.b_x)(&group.rows)?;
+            let of_bodies = (0..b_x.nrows()).map(|i| b_x.row(i));
+            let all: Vec<&[f64]> = rows.iter().copied().chain(of_bodies).collect();
+            if independent_columns(&all, p, tolerance).len() > visible {
+                return Err(ChoiceError::Hidden {
+                    reaction: group.name.clone(),
+                });
+            }
+        }
+        Ok(())
+    }
+}
