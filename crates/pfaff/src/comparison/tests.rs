@@ -33,6 +33,7 @@ fn compared(scene: &str) -> (Study, Vec<Comparison>) {
             work: sample.work,
             reactions: sample.reactions()?.as_chosen().to_vec(),
             multipliers: sample.multipliers()?.as_chosen().to_vec(),
+            chosen: Vec::new(),
         });
         Ok(ControlFlow::Continue(()))
     });

@@ -479,9 +479,10 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     let stretches = Stretches::unique(&prepared.mechanism, [0.0, 1.5], &[]);
     let columns = columns_of_reactions(&prepared.mechanism, &Selection::All, &[], |_, _| false);
     let columns = columns.expect("all of them");
+    let files = ["trajectory.csv", "summary.json"].map(str::to_owned);
     let run = |ending, stretches| Run {
         rows: 3,
-        files: &["trajectory.csv", "summary.json"].map(str::to_owned),
+        files: &files,
         gaps: &[],
         plan: &plan,
         reactions: &analysis.reactions,
