@@ -11,7 +11,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +19,7 @@ import pytest
 from conftest import PENDULUM, ROOT, SLEIGH
 
 import pfaff
+from pfaff._scene import Choice
 
 
 def test_a_stone_falls() -> None:
@@ -90,8 +91,8 @@ def test_what_is_not_unique_is_not_a_number() -> None:
 
 def test_choices_of_a_run(tmp_path: Path) -> None:
     scene = pfaff.Scene.from_string(SLEIGH)
-    soft = {"left": 1e-6, "right": (3e-6, 1e-3)}
-    asked = ["minimum-norm", soft, [1], "minimum-norm:length=0.5"]
+    soft: Choice = {"left": 1e-6, "right": (3e-6, 1e-3)}
+    asked: list[Choice] = ["minimum-norm", soft, [1], "minimum-norm:length=0.5"]
     run = scene.simulate(choose=asked)
     assert np.isnan(run.reaction("left")["N"]).all()
     names = [choice.name for choice in run.choices]
@@ -117,9 +118,10 @@ def test_choices_of_a_run(tmp_path: Path) -> None:
     assert {"choice.csv", "choice_2.csv"} <= set(written["files"])
     table = np.genfromtxt(tmp_path / "choice_2.csv", delimiter=",", skip_header=1)
     np.testing.assert_array_equal(table[:, 1:], alone.reactions)
-    for wrong in ("least", [soft, "kept-rows"], [[9]], {"lift": 1e-6}):
+    wrong: list[Choice | Sequence[Choice]] = ["least", [soft, "kept-rows"], [[9]], {"lift": 1e-6}]
+    for choose in wrong:
         with pytest.raises(pfaff.Error):
-            scene.simulate(choose=wrong)
+            scene.simulate(choose=choose)
 
 
 def test_verdicts_of_a_run_are_those_of_its_stretch() -> None:
