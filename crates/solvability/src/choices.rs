@@ -266,7 +266,7 @@ impl Configuration<'_> {
             let mut components = Vec::new();
             let own = group.components().into_iter();
             let own = own.map(|c| layout.space.components()[c]);
-            for name in own.chain(group.hidden_component()) {
+            for name in own.chain(group.own_load()) {
                 let form = self.reactions.component(id, name)?;
                 components.push((name, distribution.value(self, &form)?));
             }

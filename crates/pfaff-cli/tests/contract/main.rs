@@ -9,6 +9,7 @@ mod book;
 mod causes;
 mod cold_start;
 mod console;
+mod couplings;
 mod diff;
 mod documents;
 mod equilibrium;
