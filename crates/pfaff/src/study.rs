@@ -13,21 +13,18 @@ use dynamics::{
     Stabilisation, Stop, Summary, Wanted, simulate_until,
 };
 use model::start::assemble;
-use model::{
-    AnyDescription, ConstraintId, FramePose, Known, Reaction, Registry, StartError, StartPose,
-    System,
-};
+use model::{AnyDescription, FramePose, Known, Reaction, Registry, StartError, StartPose, System};
 use report::documents::{
     DataDocument, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument,
 };
 use report::{
-    AnalysisDocument, Origin, OutputDirectory, Peak, PeakRecorder, ReactionColumn, Run,
+    AnalysisDocument, Origin, OutputDirectory, Peak, PeakRecorder, Quantity, ReactionColumn, Run,
     RunDocument, Selection, TableError, TrajectoryTable, columns_of_reactions, write_json,
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{
-    Chosen, Contradiction, Freedoms, Group, GroupNumbers, ReactionVerdict, Sensitivities,
-    Sensitivity, State, Stretches, contradicting_drives_along,
+    Chosen, Contradiction, Freedoms, Group, GroupNumbers, GroupSensitivities, ReactionVerdict,
+    Sensitivities, Sensitivity, State, Stretches, contradicting_drives_along,
 };
 
 use crate::assembled::{AssembledScene, refused};
@@ -666,9 +663,11 @@ impl Study {
     /// What is known of a run before it begins.
     fn begun(&self) -> Result<Begun<'_>, StudyError> {
         let start = self.analyse(0.0, None)?;
+        let sensitivities = start.sensitivities()?;
         Ok(Begun {
             freedoms: start.freedoms()?,
-            sensitivities: start.sensitivities()?,
+            group_sensitivities: start.group_sensitivities(&sensitivities)?,
+            sensitivities,
             groups: self.groups()?,
             start,
         })
@@ -868,6 +867,8 @@ struct Begun<'s> {
     sensitivities: Sensitivities,
     /// The groups of the scene, with their names.
     groups: Vec<(String, Group)>,
+    /// How strongly their numbers depend on the data, with the same names.
+    group_sensitivities: Vec<(String, GroupSensitivities)>,
 }
 
 /// What was written of a run.
@@ -893,14 +894,17 @@ impl Begun<'_> {
     /// The columns of reactions.
     fn columns(&self, selection: &Selection) -> Result<Vec<ReactionColumn>, TableError> {
         let mechanism = self.start.mechanism;
-        columns_of_reactions(mechanism, selection, &self.groups, |id, name| {
-            self.is_fragile(id, name)
+        columns_of_reactions(mechanism, selection, &self.groups, |quantity| {
+            self.is_fragile(quantity)
         })
     }
 
-    /// Whether a component is unique at the start, but determined by the last digits of the data.
-    fn is_fragile(&self, id: ConstraintId, component: &str) -> bool {
-        let own = self.sensitivities.component(id, component);
+    /// Whether a number is unique at the start, but determined by the last digits of the data.
+    fn is_fragile(&self, quantity: &Quantity) -> bool {
+        let own = match quantity {
+            Quantity::Component(id, name) => self.sensitivities.component(*id, name),
+            Quantity::Group(k, name) => self.group_sensitivities[*k].1.number(name),
+        };
         own.is_some_and(Sensitivity::is_fragile)
     }
 
@@ -914,7 +918,7 @@ impl Begun<'_> {
             freedoms: &self.freedoms,
             verdicts: verdicts.map(|stretches| RunVerdicts {
                 stretches,
-                groups: &self.groups,
+                groups: &self.group_sensitivities,
                 columns: written.columns,
                 peaks: written.peaks,
             }),

@@ -126,7 +126,9 @@ pub use second_order::{
     CommonZero, Continuation, Restricted, Restrictions, SecondOrder, Undetermined,
     blocked_velocities, common_zero, is_locked, restrictions, second_order,
 };
-pub use sensitivity::{Datum, ReactionNumber, ReactionSensitivities, Sensitivities, Sensitivity};
+pub use sensitivity::{
+    Datum, GroupSensitivities, ReactionNumber, ReactionSensitivities, Sensitivities, Sensitivity,
+};
 pub use state::{State, StateError};
 pub use stretches::{
     CarriedState, CarriedVerdicts, GroupStretches, Looked, ReactionStretches, SpecialInstant,

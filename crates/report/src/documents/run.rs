@@ -247,7 +247,7 @@ impl RunDocument {
             (r.name.clone(), document)
         });
         let reactions = Named(reactions.collect());
-        let groups = verdicts.map_or_else(|| Named(Vec::new()), RunVerdicts::groups);
+        let groups = verdicts.map_or_else(|| Named(Vec::new()), |v| v.groups(mechanism.layout()));
         let has_choice = verdicts.is_some_and(RunVerdicts::has_choice);
         Self {
             method: run.summary.method.name(),
