@@ -466,6 +466,7 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
             redundancy_after: 1,
             dropped: vec![1],
             text: "row 2 for row 4".into(),
+            impulses: Vec::new(),
         }],
         dropped: vec![
             DroppedRows::new(0.0, vec![3]),
