@@ -156,6 +156,8 @@ def test_verdicts_of_a_run_are_those_of_its_stretch() -> None:
     side = run.group("side")
     np.testing.assert_allclose(np.abs(side[side.columns[0]]), 10.0, atol=1e-5)
     assert run.reaction_columns[-4:] == ["both.Fx", "both.Fy", "both.T", "side"]
+    assert not run.document["groups"]["side"]["fragile"]
+    assert run.document["groups"]["side"]["sensitivity"] < 0.1
     # One verdict for several joints has no number.
     assert run.document["groups"]["wheels"]["verdict"] == "not_unique"
     with pytest.raises(pfaff.InputError, match="there is no group with numbers `wheels`"):
@@ -205,6 +207,34 @@ def test_what_is_unique_at_the_start_only_has_no_number() -> None:
     for other in runs:
         np.testing.assert_allclose(other.trajectory, runs[0].trajectory, atol=1e-6)
         np.testing.assert_array_equal(np.isnan(other.reaction("guide-x")["Fx"]), False)
+
+
+def test_an_impulse_has_verdicts() -> None:
+    """A wheel of 2 kg and 0.3 kg·m², 0.5 m off its pin, at 2 rad/s and from 1 s on at -1 rad/s."""
+    both = {"bodies": ["ground", "wheel"], "at": [0.0, 0.0]}
+    motion = {"type": "linear-table", "times": [0.0, 1.0, 3.0], "values": [0.0, 2.0, 0.0]}
+    wheel = (
+        pfaff.Scene("wheel", space="plane")
+        .body("wheel", mass=2.0, inertia=0.3, position=[0.5, 0.0])
+        .joint("pin", "revolute", **both)
+        .drive("motor", joint="pin", type="angle", motion=motion)
+    )
+    told: list[pfaff.Event] = []
+    run = wheel.simulate(2.0, on_event=told.append)
+    assert told == run.events
+    [impulses] = [event.impulses for event in run.events if event.kind == "impulse"]
+    pin, motor = (impulses[name]["components"] for name in ("pin", "motor"))
+    np.testing.assert_allclose(pin["Fx"]["value"], -3.0 * math.sin(2.0))
+    np.testing.assert_allclose(pin["Fy"]["value"], 3.0 * math.cos(2.0))
+    assert motor["drive"]["verdict"] == "unique"
+    np.testing.assert_allclose(motor["drive"]["value"], 3.0 * (0.3 + 2.0 * 0.5**2))
+    # Two pins at one place share it in any way.
+    run = wheel.joint("other", "revolute", **both).simulate(2.0)
+    [impulses] = [event.impulses for event in run.events if event.kind == "impulse"]
+    for name in ("pin", "other"):
+        for component in impulses[name]["components"].values():
+            assert component == {"value": None, "verdict": "not_unique"}
+    assert impulses["motor"]["components"]["T"]["verdict"] == "unique"
 
 
 def test_arrays_are_made_once_and_stay() -> None:

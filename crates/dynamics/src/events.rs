@@ -1,5 +1,8 @@
 //! Events during a run that are reported to the user.
 
+use model::ConstraintId;
+use solvability::Verdict;
+
 /// One event.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
@@ -15,6 +18,30 @@ pub struct Event {
     pub dropped: Vec<usize>,
     /// Description.
     pub text: String,
+    /// The impulses of all joints and drives where velocities jump; empty at other events, and
+    /// if no reactions are requested.
+    pub impulses: Vec<ReactionImpulse>,
+}
+
+/// The impulse of a joint or drive where velocities jump: the integral of its reaction over the
+/// instant, with the components of the reaction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReactionImpulse {
+    /// The joint or drive.
+    pub id: ConstraintId,
+    /// The components that are not identically zero, and the named one of the definition.
+    pub components: Vec<ImpulseComponent>,
+}
+
+/// A component of an impulse with its verdict.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImpulseComponent {
+    /// Its name.
+    pub name: &'static str,
+    /// The component (N·s, N·m·s); `None` if it is not unique at this instant.
+    pub value: Option<f64>,
+    /// The verdict at this instant.
+    pub verdict: Verdict,
 }
 
 impl Event {
@@ -27,6 +54,7 @@ impl Event {
             redundancy_after: dropped.len(),
             dropped: dropped.to_vec(),
             text,
+            impulses: Vec::new(),
         }
     }
 }

@@ -6,6 +6,7 @@ mod analysis;
 mod answers;
 mod equilibrium;
 mod freedoms;
+mod impulses;
 mod linearise;
 mod misfits;
 mod motion;
@@ -40,6 +41,7 @@ pub use answers::{
 };
 pub use equilibrium::{EquilibriumDocument, ReactionAtRestDocument, RestingBodyDocument};
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
+pub use impulses::{ImpulseComponentDocument, ImpulseDocument};
 pub use linearise::{
     InputDocument, LinearisationDocument, ModeDocument, SecondOrderDocument, StateDocument,
 };

@@ -127,7 +127,7 @@ pub use second_order::{
     CommonZero, Continuation, Restricted, Restrictions, SecondOrder, Undetermined,
     blocked_velocities, common_zero, is_locked, restrictions, second_order,
 };
-pub use sensitivity::{ReactionNumber, ReactionSensitivities, Sensitivities};
+pub use sensitivity::{GroupSensitivities, ReactionNumber, ReactionSensitivities, Sensitivities};
 pub use state::{State, StateError};
 pub use stretches::{
     CarriedState, CarriedVerdicts, GroupStretches, Looked, ReactionStretches, SpecialInstant,

@@ -112,7 +112,7 @@ pub(crate) fn reaction(
         })
     });
     let mut components = judged.collect::<Result<Vec<_>, QueryError>>()?;
-    components.extend(hidden_component(mechanism, id, s, basis, rows)?);
+    components.extend(own_load(mechanism, id, s, basis, rows)?);
     let on_bodies = basis.group(rows.iter().copied())?;
     let free = components
         .iter()
@@ -180,16 +180,15 @@ pub(crate) fn component_map(
     (components, map)
 }
 
-/// The verdict on the named component of a definition whose force and torque on the first body may
-/// not contain it.
-fn hidden_component(
+/// The verdict on the load of a coupling.
+fn own_load(
     mechanism: &Mechanism,
     id: ConstraintId,
     s: &Scratch,
     basis: &Basis,
     rows: &[usize],
 ) -> Result<Option<ComponentVerdict>, QueryError> {
-    let Some(name) = mechanism.layout().groups[id.0].hidden_component() else {
+    let Some(name) = mechanism.layout().groups[id.0].own_load() else {
         return Ok(None);
     };
     let coefficients = mechanism.reactions(s).component_coefficients(id, name);

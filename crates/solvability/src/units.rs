@@ -221,7 +221,7 @@ impl<'a> Numbers<'a> {
                 let found = configuration.reactions.in_frame(id, frame)?;
                 let forces_only = frame != Frame::Global;
                 let mut components = found.map_or(Vec::new(), |f| f.components);
-                if let Some(name) = group.hidden_component().filter(|_| !forces_only) {
+                if let Some(name) = group.own_load().filter(|_| !forces_only) {
                     components.push((name, configuration.reactions.component(id, name)?));
                 }
                 for (component, (name, form)) in components.into_iter().enumerate() {

@@ -4,7 +4,8 @@
 use model::{Layout, System};
 use serde::Serialize;
 use solvability::{
-    Group, ReactionStretches, ReactionVerdict, Sensitivities, Stretches, Verdict, VerdictTrack,
+    GroupSensitivities, GroupStretches, ReactionStretches, ReactionVerdict, Sensitivities,
+    Stretches, Verdict, VerdictTrack,
 };
 
 use super::{Named, SensitivityDocument, VerdictDocument};
@@ -104,6 +105,9 @@ pub struct RunGroupDocument {
     /// The verdict over the run.
     #[serde(flatten)]
     pub of_run: TrackDocument,
+    /// How strongly it depends on the data at the start: the largest of its numbers.
+    #[serde(flatten)]
+    pub data: SensitivityDocument,
     /// The components of a sum of wrenches.
     #[serde(skip_serializing_if = "Named::is_empty")]
     pub components: Named<RunNumberDocument>,
@@ -132,8 +136,9 @@ pub struct SpecialDocument {
 pub struct RunVerdicts<'a> {
     /// Its verdicts.
     pub stretches: &'a Stretches,
-    /// The groups of the scene, with their names.
-    pub groups: &'a [(String, Group)],
+    /// The groups of the scene by name, and how strongly their numbers depend on the data at the
+    /// start.
+    pub groups: &'a [(String, GroupSensitivities)],
     /// Columns of its table, and the peaks of the determined numbers in each.
     pub columns: &'a [ReactionColumn],
     /// One for each column.
@@ -151,10 +156,15 @@ impl RunVerdicts<'_> {
         })
     }
 
-    fn number(&self, quantity: Quantity, track: &VerdictTrack) -> RunNumberDocument {
+    fn number(
+        &self,
+        quantity: Quantity,
+        track: &VerdictTrack,
+        data: SensitivityDocument,
+    ) -> RunNumberDocument {
         RunNumberDocument {
             of_run: track.into(),
-            data: SensitivityDocument::default(),
+            data,
             peak: self.peak(quantity),
         }
     }
@@ -169,11 +179,9 @@ impl RunVerdicts<'_> {
         let own = found.components.iter();
         let own = own.map(|(name, track)| {
             let known = sensitivities.component(found.id, name);
-            let number = RunNumberDocument {
-                data: SensitivityDocument::of_number(known, &format!("{owner}.{name}"), layout),
-                ..self.number(Quantity::Component(found.id, name), track)
-            };
-            ((*name).to_owned(), number)
+            let data = SensitivityDocument::of_number(known, &format!("{owner}.{name}"), layout);
+            let quantity = Quantity::Component(found.id, name);
+            ((*name).to_owned(), self.number(quantity, track, data))
         });
         Named(own.collect())
     }
@@ -186,28 +194,35 @@ impl RunVerdicts<'_> {
     }
 
     /// The groups by name.
-    pub(super) fn groups(&self) -> Named<RunGroupDocument> {
+    pub(super) fn groups(&self, layout: &Layout) -> Named<RunGroupDocument> {
         let all = self.groups.iter().zip(&self.stretches.groups).enumerate();
-        let document = |(k, ((name, _), found)): (usize, (&(String, Group), _))| {
-            let found: &solvability::GroupStretches = found;
-            let numbers = found.numbers.iter();
-            let numbers: Vec<(String, RunNumberDocument)> = numbers
-                .map(|(name, track)| {
-                    let quantity = Quantity::Group(k, name);
-                    ((*name).to_owned(), self.number(quantity, track))
-                })
-                .collect();
-            let is_sum = numbers.len() == 1;
-            let peak = numbers.first().filter(|_| is_sum);
-            let peak = peak.and_then(|(_, number)| number.peak.clone());
-            let document = RunGroupDocument {
-                of_run: (&found.whole).into(),
-                peak,
-                components: Named(if is_sum { Vec::new() } else { numbers }),
-            };
-            (name.clone(), document)
+        let document = |(k, ((name, known), found)): (usize, (&(String, _), _))| {
+            (name.clone(), self.group(k, (name, known), found, layout))
         };
         Named(all.map(document).collect())
+    }
+
+    fn group(
+        &self,
+        k: usize,
+        (name, known): (&str, &GroupSensitivities),
+        found: &GroupStretches,
+        layout: &Layout,
+    ) -> RunGroupDocument {
+        let numbers = found.numbers.iter().map(|(number, track)| {
+            let data = SensitivityDocument::of_group_number(known, name, number, layout);
+            let quantity = Quantity::Group(k, number);
+            ((*number).to_owned(), self.number(quantity, track, data))
+        });
+        let numbers: Vec<(String, RunNumberDocument)> = numbers.collect();
+        let is_sum = numbers.len() == 1;
+        let peak = numbers.first().filter(|_| is_sum);
+        RunGroupDocument {
+            of_run: (&found.whole).into(),
+            data: SensitivityDocument::of_group(known, name, layout),
+            peak: peak.and_then(|(_, number)| number.peak.clone()),
+            components: Named(if is_sum { Vec::new() } else { numbers }),
+        }
     }
 
     /// The instants at which another verdict holds than on their stretch, in the order of time.

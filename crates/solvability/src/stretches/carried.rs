@@ -127,6 +127,35 @@ impl<'m> CarriedVerdicts<'m> {
         self.recorder.see(t, looked, nothing);
     }
 
+    /// The verdicts at one instant on the components of the parts with redundant rows; those of all
+    /// others are unique. Nothing is recorded. Without a state the rank is lower at the instant,
+    /// and they are undecided.
+    pub fn components_at(
+        &mut self,
+        at: Option<&CarriedState<'_>>,
+    ) -> Vec<(ConstraintId, &'static str, Verdict)> {
+        let lower = "the rank at this instant is not that of the motion";
+        let verdicts = match at.map(|at| self.verdicts(at)) {
+            Some(Ok(verdicts)) => verdicts,
+            Some(Err(error)) => {
+                let reason = error.to_string();
+                vec![Some(Verdict::Undecided { reason }); self.recorder.numbers()]
+            }
+            None => vec![None; self.recorder.numbers()],
+        };
+        let pairs = self.numbers().into_iter().zip(verdicts);
+        let component = |(number, verdict): (Number, Option<Verdict>)| match number {
+            Number::Component(id, name) => {
+                let open = || Verdict::Undecided {
+                    reason: lower.to_owned(),
+                };
+                Some((id, name, verdict.unwrap_or_else(open)))
+            }
+            Number::Group(..) => None,
+        };
+        pairs.filter_map(component).collect()
+    }
+
     fn verdicts(&mut self, at: &CarriedState<'_>) -> Result<Verdicts, AnalysisError> {
         let mut verdicts = Vec::with_capacity(self.recorder.numbers());
         let forms = self.forms(at)?;

@@ -4,8 +4,8 @@ use model::{ConstraintId, Frame, Layout, SpaceKind};
 use rank::Settled;
 use serde::Serialize;
 use solvability::{
-    ComponentVerdict, Explanation, FrameVerdict, FreeDirection, GroupVerdict, NoFiniteReaction,
-    ReactionVerdict, Sensitivities, Sensitivity, Value,
+    ComponentVerdict, Explanation, FrameVerdict, FreeDirection, GroupSensitivities, GroupVerdict,
+    NoFiniteReaction, ReactionVerdict, Sensitivities, Sensitivity, Value,
 };
 
 use super::ValueDocument;
@@ -380,29 +380,16 @@ impl GroupDocument {
         }
     }
 
-    /// Adds how strongly its unique numbers depend on the data: one sensitivity for each, in their
-    /// order.
-    pub fn add_sensitivities(&mut self, found: Vec<Option<Sensitivity>>, layout: &Layout) {
-        let unique = self.values.iter_mut().map(|v| &mut v.value);
-        let unique = unique.filter(|value| value.verdict().is_unique());
-        for (value, found) in unique.zip(&found) {
-            value.add_sensitivity(found.clone());
+    /// Adds how strongly its unique numbers depend on the data.
+    pub fn add_sensitivities(&mut self, found: &GroupSensitivities, layout: &Layout) {
+        for ValueDocument { name, value, .. } in &mut self.values {
+            let own = name.and_then(|name| found.number(name));
+            value.add_sensitivity(own.cloned());
         }
-        let name = &self.name;
-        if self.components.is_empty() {
-            let sums = found
-                .iter()
-                .map(|found| SensitivityDocument::of_number(found.as_ref(), name, layout));
-            self.data = sums.fold(SensitivityDocument::default(), |a, b| a.or_larger(&b));
-            return;
+        for c in &mut self.components {
+            c.data = SensitivityDocument::of_group_number(found, &self.name, c.name, layout);
         }
-        let all = self.components.iter_mut().map(|c| (name, c));
-        ComponentDocument::add_sensitivities(all, found, layout);
-        let components = self.components.iter().map(|c| &c.data);
-        self.data = components.fold(
-            SensitivityDocument::default(),
-            SensitivityDocument::or_larger,
-        );
+        self.data = SensitivityDocument::of_group(found, &self.name, layout);
     }
 
     /// Adds the numbers of the group.
