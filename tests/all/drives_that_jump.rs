@@ -135,7 +135,7 @@ fn impulses(prepared: &Prepared) -> Vec<Vec<(&'static str, Option<f64>, &'static
     let each = event.impulses.iter().map(|impulse| {
         let components = impulse.components.iter();
         components
-            .map(|c| (c.name, c.value, c.verdict.word()))
+            .map(|(name, value)| (*name, value.determined(), value.verdict().word()))
             .collect()
     });
     each.collect()

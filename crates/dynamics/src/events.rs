@@ -1,7 +1,7 @@
 //! Events during a run that are reported to the user.
 
 use model::ConstraintId;
-use solvability::Verdict;
+use solvability::Value;
 
 /// One event.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,19 +29,9 @@ pub struct Event {
 pub struct ReactionImpulse {
     /// The joint or drive.
     pub id: ConstraintId,
-    /// The components that are not identically zero, and the named one of the definition.
-    pub components: Vec<ImpulseComponent>,
-}
-
-/// A component of an impulse with its verdict.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ImpulseComponent {
-    /// Its name.
-    pub name: &'static str,
-    /// The component (N·s, N·m·s); `None` if it is not unique at this instant.
-    pub value: Option<f64>,
-    /// The verdict at this instant.
-    pub verdict: Verdict,
+    /// The components that are not identically zero, and the named one of the definition, with
+    /// their names and their verdicts at this instant (N·s, N·m·s).
+    pub components: Vec<(&'static str, Value)>,
 }
 
 impl Event {

@@ -41,7 +41,7 @@ pub use answers::{
 };
 pub use equilibrium::{EquilibriumDocument, ReactionAtRestDocument, RestingBodyDocument};
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
-pub use impulses::{ImpulseComponentDocument, ImpulseDocument};
+pub use impulses::ImpulseDocument;
 pub use linearise::{
     InputDocument, LinearisationDocument, ModeDocument, SecondOrderDocument, StateDocument,
 };

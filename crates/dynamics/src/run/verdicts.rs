@@ -4,11 +4,11 @@
 use std::collections::HashMap;
 
 use model::{ConstraintId, System};
-use solvability::{CarriedState, CarriedVerdicts, Group, Looked, Stretches, Verdict};
+use solvability::{CarriedState, CarriedVerdicts, Group, Looked, Stretches, Value, Verdict};
 
 use super::summary::DroppedRows;
 use crate::error::MotionFault;
-use crate::events::{ImpulseComponent, ReactionImpulse};
+use crate::events::ReactionImpulse;
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
@@ -132,11 +132,7 @@ impl<'m> RunVerdicts<'m> {
             let component = |(name, value): (&'static str, f64)| {
                 let verdict = open.get(&(id, name)).cloned();
                 let verdict = verdict.unwrap_or(Verdict::Unique);
-                ImpulseComponent {
-                    name,
-                    value: verdict.is_unique().then_some(value),
-                    verdict,
-                }
+                (name, Value::new(value, verdict, None))
             };
             ReactionImpulse {
                 id,

@@ -67,10 +67,15 @@ impl SensitivityDocument {
         number: &str,
         layout: &Layout,
     ) -> Self {
-        let name = match number {
+        let name = Self::name_in_group(group, number);
+        Self::of_number(found.number(number), &name, layout)
+    }
+
+    /// The name of a number of a group in sentences.
+    pub(super) fn name_in_group(group: &str, number: &str) -> String {
+        match number {
             "sum" => group.to_owned(),
             component => format!("{group}.{component}"),
-        };
-        Self::of_number(found.number(number), &name, layout)
+        }
     }
 }

@@ -5,7 +5,7 @@ use model::{Layout, System};
 use serde::Serialize;
 use solvability::{
     GroupSensitivities, GroupStretches, ReactionStretches, ReactionVerdict, Sensitivities,
-    Stretches, Verdict, VerdictTrack,
+    Sensitivity, Stretches, Value, Verdict, VerdictTrack,
 };
 
 use super::{Named, SensitivityDocument, VerdictDocument};
@@ -90,8 +90,9 @@ pub struct RunNumberDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PeakDocument {
-    /// The value with its sign (N, N·m).
-    pub value: f64,
+    /// The value with its sign (N, N·m), and its verdict there.
+    #[serde(flatten)]
+    pub value: Value,
     /// The first time at which it occurs (s).
     pub time: f64,
     /// The intervals on which the number is determined (s).
@@ -146,26 +147,32 @@ pub struct RunVerdicts<'a> {
 }
 
 impl RunVerdicts<'_> {
-    fn peak(&self, quantity: Quantity) -> Option<PeakDocument> {
+    fn peak(&self, quantity: Quantity, known: Option<&Sensitivity>) -> Option<PeakDocument> {
         let k = self.columns.iter().position(|c| c.quantity == quantity)?;
         let peak = self.peaks.get(k)?.as_ref()?;
+        let mut value = Value::unique(peak.value);
+        value.add_sensitivity(known.cloned());
         Some(PeakDocument {
-            value: peak.value,
+            value,
             time: peak.time,
             over: peak.over.clone(),
         })
     }
 
+    /// A number of the name that stands in sentences. The data of the start say nothing of it where
+    /// it is determined at that instant only.
     fn number(
         &self,
         quantity: Quantity,
         track: &VerdictTrack,
-        data: SensitivityDocument,
+        known: Option<&Sensitivity>,
+        (name, layout): (&str, &Layout),
     ) -> RunNumberDocument {
+        let known = known.filter(|_| track.at(self.stretches.extent[0]).is_unique());
         RunNumberDocument {
             of_run: track.into(),
-            data,
-            peak: self.peak(quantity),
+            data: SensitivityDocument::of_number(known, name, layout),
+            peak: self.peak(quantity, known),
         }
     }
 
@@ -179,9 +186,10 @@ impl RunVerdicts<'_> {
         let own = found.components.iter();
         let own = own.map(|(name, track)| {
             let known = sensitivities.component(found.id, name);
-            let data = SensitivityDocument::of_number(known, &format!("{owner}.{name}"), layout);
             let quantity = Quantity::Component(found.id, name);
-            ((*name).to_owned(), self.number(quantity, track, data))
+            let full_name = format!("{owner}.{name}");
+            let number = self.number(quantity, track, known, (&full_name, layout));
+            ((*name).to_owned(), number)
         });
         Named(own.collect())
     }
@@ -210,9 +218,11 @@ impl RunVerdicts<'_> {
         layout: &Layout,
     ) -> RunGroupDocument {
         let numbers = found.numbers.iter().map(|(number, track)| {
-            let data = SensitivityDocument::of_group_number(known, name, number, layout);
+            let full_name = SensitivityDocument::name_in_group(name, number);
             let quantity = Quantity::Group(k, number);
-            ((*number).to_owned(), self.number(quantity, track, data))
+            let known = known.number(number);
+            let document = self.number(quantity, track, known, (&full_name, layout));
+            ((*number).to_owned(), document)
         });
         let numbers: Vec<(String, RunNumberDocument)> = numbers.collect();
         let is_sum = numbers.len() == 1;
