@@ -34,6 +34,10 @@ class ComponentVerdict:
     """Distance from being unique; rounding for a unique one."""
     within_tolerance: bool
     """Whether it is unique only within the tolerance that is stated."""
+    generic_verdict: str | None = None
+    """The verdict at the other configurations that were compared; ``None`` if none were reached.
+
+    Components in other frames, of moments and of sums have none."""
 
     @property
     def unique(self) -> bool:
@@ -43,7 +47,13 @@ class ComponentVerdict:
 
 def _components(of: Iterable[Mapping[str, Any]]) -> dict[str, ComponentVerdict]:
     return {
-        c["name"]: ComponentVerdict(c["name"], c["verdict"], c["margin"], c["within_tolerance"])
+        c["name"]: ComponentVerdict(
+            c["name"],
+            c["verdict"],
+            c["margin"],
+            c["within_tolerance"],
+            c.get("generic_verdict"),
+        )
         for c in of
     }
 
@@ -63,6 +73,15 @@ class Verdict:
     def verdict(self) -> str:
         """``unique``, ``not_unique`` or ``undecided``."""
         return self._word
+
+    @property
+    def generic_verdict(self) -> str | None:
+        """The verdict at the other configurations that were compared: at nearly all of them.
+
+        ``None`` if no other configuration was reached. That of a motion is in :meth:`Analysis.along`.
+        """
+        word: str | None = self._entry["generic_verdict"]
+        return word
 
     @property
     def unique(self) -> bool:
@@ -289,7 +308,13 @@ class Analysis:
         return found
 
     def along(self, t_end: float | None = None) -> dict[str, Any]:
-        """The verdicts along the motion: ``along`` of ``pfaff analyze --along --json``."""
+        """The verdicts along the motion: ``along`` of ``pfaff analyze --along --json``.
+
+        ``reactions`` has, by name, the verdict over the motion of each joint and drive and of its
+        ``components``, with the intervals on which it is ``determined`` where it is only on some;
+        ``special`` the instants with other verdicts, as in the ``document`` of a run; ``passages``
+        the singular configurations.
+        """
         found: dict[str, Any] = json.loads(self._of.along(t_end))
         return found
 
