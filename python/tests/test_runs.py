@@ -135,18 +135,30 @@ def test_verdicts_of_a_run_are_those_of_its_stretch() -> None:
         .group("side", combine="left.N + right.N")
         .group("wheels", members=["left", "right"])
     )
-    assert cart.analyze().verdicts["left"].components["Fx"].unique
+    analysis = cart.analyze()
+    left = analysis.verdicts["left"]
+    assert left.components["Fx"].unique
+    assert left.components["Fx"].generic_verdict == "not_unique"
+    assert left.generic_verdict == "not_unique"
+    assert analysis.combine("left + right").components["Fx"].generic_verdict is None
     run = cart.simulate(3.0)
     for name in ("left", "right"):
         assert np.isnan(run.reaction(name).force).all()
         assert run.document["reactions"][name]["components"]["Fx"]["verdict"] == "not_unique"
         assert run.document["reactions"][name]["at_start"]["verdict"] == "not_unique"
-    generic = {r["name"]: r["components"] for r in cart.analyze().along(3.0)["generic"]["reactions"]}
-    for components in generic.values():
-        words = {c["name"]: c["verdict"] for c in components}
-        assert words == {"Fx": "not_unique", "Fy": "not_unique"}
-    special = {(s["time"], s["name"], s["component"], s["verdict"]) for s in run.document["special"]}
-    assert {(0.0, "left", "Fx", "unique"), (0.0, "right", "Fx", "unique")} <= special
+    along = analysis.along(3.0)
+    for name, found in along["reactions"].items():
+        of_run = run.document["reactions"][name]
+        assert found["verdict"] == of_run["verdict"] == "not_unique"
+        for component, own in found["components"].items():
+            assert own == {"verdict": of_run["components"][component]["verdict"]}
+        assert found["components"]["Fx"]["verdict"] == "not_unique"
+    for document in (run.document, along):
+        special = {(s["time"], s["name"], s["component"], s["verdict"]) for s in document["special"]}
+        assert {(0.0, "left", "Fx", "unique"), (0.0, "right", "Fx", "unique")} <= special
+    # Across is x after a quarter turn: the force along y is zero there.
+    quarter = [s for s in along["special"] if (s["name"], s["component"]) == ("left", "Fy")]
+    np.testing.assert_allclose([s["time"] for s in quarter], [math.pi / 2.0], atol=1e-6)
     # The sum is m·v·omega, to the left of the cart, on its first body.
     both, angle = run.group("both"), run.body("cart").angle
     across = np.column_stack((-np.sin(angle), np.cos(angle)))

@@ -275,13 +275,7 @@ fn partly(name: &str, reaction: &RunReactionDocument) -> Option<String> {
     let components = reaction.components.0.iter();
     let some = components.filter(|(_, c)| !c.of_run.determined.is_empty());
     let some: Vec<String> = some
-        .map(|(component, c)| {
-            let on = c.of_run.determined.iter();
-            let on: Vec<String> = on
-                .map(|[from, to]| format!("{} … {} s", rounded(*from), rounded(*to)))
-                .collect();
-            format!("{name}.{component} on {}", on.join(", "))
-        })
+        .map(|(component, c)| format!("{name}.{component} on {}", c.of_run.on_intervals()))
         .collect();
     (!some.is_empty()).then(|| some.join(", "))
 }

@@ -25,14 +25,13 @@ use serde::ser::{SerializeMap, Serializer};
 use solvability::{Judgement, Verdict};
 
 pub use analysis::{
-    AlongDocument, AnalysisDocument, AnswersDocument, ComponentDocument, ConfigurationDocument,
-    ContinuationDocument, DataDocument, DependencyDocument, DifferenceDocument,
-    DistributionDocument, EliminationsDocument, EvidenceDocument, FrameDocument,
-    FreeDirectionDocument, GenericDocument, GenericVerdictsDocument, GroupDocument,
-    MakeUniqueDocument, MixingDocument, MomentAboutDocument, NamedVerdictDocument,
-    NearlyRedundantDocument, NoteDocument, PartsDocument, PassageDocument, PointDocument,
-    RanksDocument, ReactionDocument, ReasonsDocument, RowDocument, StretchDocument, ValueDocument,
-    ValuesDocument, WayDocument,
+    AlongDocument, AlongReactionDocument, AnalysisDocument, AnswersDocument, ComponentDocument,
+    ConfigurationDocument, ContinuationDocument, DataDocument, DependencyDocument,
+    DifferenceDocument, DistributionDocument, EliminationsDocument, EvidenceDocument,
+    FrameDocument, FreeDirectionDocument, GenericDocument, GenericRankDocument, GroupDocument,
+    MakeUniqueDocument, MixingDocument, MomentAboutDocument, NearlyRedundantDocument, NoteDocument,
+    PartsDocument, PassageDocument, PointDocument, RanksDocument, ReactionDocument,
+    ReasonsDocument, RowDocument, StretchDocument, ValueDocument, ValuesDocument, WayDocument,
 };
 pub use answers::{
     CheckDocument, CodeDocument, CodesDocument, DiffBody, DiffChange, DiffDocument, DiffMotion,

@@ -38,6 +38,10 @@ class ComponentVerdict:
     """Largest change by one point, as a share; ``None`` if it is not unique or not known."""
     fragile: bool = False
     """Whether it is unique, but made of the last digits of the data."""
+    generic_verdict: str | None = None
+    """The verdict at the other configurations that were compared; ``None`` if none were reached.
+
+    Components in other frames, of moments and of sums have none."""
 
     @property
     def unique(self) -> bool:
@@ -47,7 +51,10 @@ class ComponentVerdict:
 
 def _components(of: Iterable[Mapping[str, Any]]) -> dict[str, ComponentVerdict]:
     keys = ("name", "verdict", "margin", "within_tolerance", "sensitivity", "fragile")
-    return {c["name"]: ComponentVerdict(*(c[key] for key in keys)) for c in of}
+    return {
+        c["name"]: ComponentVerdict(*(c[key] for key in keys), c.get("generic_verdict"))
+        for c in of
+    }
 
 
 class Verdict:
@@ -65,6 +72,15 @@ class Verdict:
     def verdict(self) -> str:
         """``unique``, ``not_unique`` or ``undecided``."""
         return self._word
+
+    @property
+    def generic_verdict(self) -> str | None:
+        """The verdict at the other configurations that were compared: at nearly all of them.
+
+        ``None`` if no other configuration was reached. That of a motion is in :meth:`Analysis.along`.
+        """
+        word: str | None = self._entry["generic_verdict"]
+        return word
 
     @property
     def unique(self) -> bool:
@@ -299,7 +315,13 @@ class Analysis:
         return found
 
     def along(self, t_end: float | None = None) -> dict[str, Any]:
-        """The verdicts along the motion: ``along`` of ``pfaff analyze --along --json``."""
+        """The verdicts along the motion: ``along`` of ``pfaff analyze --along --json``.
+
+        ``reactions`` has, by name, the verdict over the motion of each joint and drive and of its
+        ``components``, with the intervals on which it is ``determined`` where it is only on some;
+        ``special`` the instants with other verdicts, as in the ``document`` of a run; ``passages``
+        the singular configurations.
+        """
         found: dict[str, Any] = json.loads(self._of.along(t_end))
         return found
 

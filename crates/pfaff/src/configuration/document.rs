@@ -36,10 +36,13 @@ impl ConfigurationAnalysis<'_> {
     /// without numbers are reported as a warning in the document, not as an error.
     pub fn document(&self, combine: &[String]) -> Result<AnalysisDocument, StudyError> {
         let groups = self.groups(combine)?;
-        let generic = self.generic();
+        let (generic, generic_verdicts) = self.generic_with_verdicts().unzip();
         let mut document =
             AnalysisDocument::new(self.scene.name(), &self.analysis, generic.as_ref())
                 .with_freedoms(&self.freedoms()?, self.mechanism);
+        if let Some(verdicts) = generic_verdicts.flatten() {
+            document.add_generic_verdicts(&verdicts);
+        }
         document.groups = groups
             .iter()
             .map(|(name, verdict)| GroupDocument::new(name, verdict))

@@ -349,7 +349,9 @@ impl RunDocument {
                 .collect(),
             reactions,
             groups,
-            special: verdicts.map_or_else(Vec::new, |v| v.special(mechanism.layout())),
+            special: verdicts.map_or_else(Vec::new, |v| {
+                SpecialDocument::all(v.stretches, v.groups, mechanism.layout())
+            }),
             choice: if has_choice {
                 ChoiceDocument::of(run)
             } else {

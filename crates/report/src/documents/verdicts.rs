@@ -1,6 +1,7 @@
 //! Verdicts of a run: of joints and drives, of their components and of groups, by stretches of
 //! time, with the peaks of what is determined.
 
+use model::words::rounded;
 use model::{Layout, System};
 use serde::Serialize;
 use solvability::{
@@ -24,6 +25,17 @@ pub struct TrackDocument {
     /// The intervals of time on which it is determined (s), where only some are.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub determined: Vec<[f64; 2]>,
+}
+
+impl TrackDocument {
+    /// The intervals on which it is determined as text, as `0 … 1 s`; empty if there are none, or
+    /// if it is determined throughout.
+    #[must_use]
+    pub fn on_intervals(&self) -> String {
+        let each = self.determined.iter();
+        let each = each.map(|[from, to]| format!("{} … {} s", rounded(*from), rounded(*to)));
+        each.collect::<Vec<_>>().join(", ")
+    }
 }
 
 impl From<&VerdictTrack> for TrackDocument {
@@ -234,25 +246,32 @@ impl RunVerdicts<'_> {
             components: Named(if is_sum { Vec::new() } else { numbers }),
         }
     }
+}
 
+impl SpecialDocument {
     /// The instants at which another verdict holds than on their stretch, in the order of time.
-    pub(super) fn special(&self, layout: &Layout) -> Vec<SpecialDocument> {
+    /// The names of the groups are given.
+    pub(super) fn all<T>(
+        stretches: &Stretches,
+        groups: &[(String, T)],
+        layout: &Layout,
+    ) -> Vec<Self> {
         let mut all = Vec::new();
         let mut add = |owner: &str, component: Option<&'static str>, track: &VerdictTrack| {
-            all.extend(track.special().iter().map(|special| SpecialDocument {
+            all.extend(track.special().iter().map(|special| Self {
                 time: special.time,
                 name: owner.to_owned(),
                 component,
                 verdict: special.verdict.word(),
             }));
         };
-        for found in &self.stretches.reactions {
+        for found in &stretches.reactions {
             let owner = &layout.groups[found.id.0].name;
             for (name, track) in &found.components {
                 add(owner, Some(name), track);
             }
         }
-        for ((owner, _), found) in self.groups.iter().zip(&self.stretches.groups) {
+        for ((owner, _), found) in groups.iter().zip(&stretches.groups) {
             for (name, track) in &found.numbers {
                 add(owner, (*name != "sum").then_some(name), track);
             }
