@@ -115,7 +115,9 @@ simulate = { t_end = 2.0 }
     let folder = Folder::new("impulses");
     let arguments = ["simulate", "-", "--out", folder.text(), "--json"];
     let found = impulses(&arguments, scene);
-    let open = serde_json::json!({ "value": null, "verdict": "not_unique" });
+    let open = serde_json::json!(
+        { "value": null, "verdict": "not_unique", "fragile": false, "sensitivity": null }
+    );
     for name in ["pin", "other"] {
         assert_eq!(
             found[name]["components"],
