@@ -37,7 +37,7 @@ use crate::report_builder::{OfRun, ReportBuilder};
 use crate::rows::{Calling, Ended, RowFault, RowSink, run_into};
 use crate::spread::Path;
 use crate::tables_of_run::{
-    KEPT_ROWS, ReactionFiles, TableRows, TrajectoryFile, group_numbers, note_gap,
+    KEPT_ROWS, ReactionFiles, TableRows, TrajectoryFile, group_numbers, note_gap, numbers_of,
 };
 use crate::within::missed;
 
@@ -632,10 +632,9 @@ impl Study {
         let (columns, space) = (begun.columns(&Selection::All)?, mechanism.space());
         let mut peaks = PeakRecorder::new(columns.len(), &mechanism.layout().break_times);
         let mut caller = Calling(|sample: &mut Sample<'_, '_>| {
-            let (reactions, multipliers) = (sample.reactions()?, sample.multipliers()?);
             let numbers = ChosenNumbers {
-                reactions,
-                groups: group_numbers(&mut groups, sample, &multipliers)?,
+                reactions: sample.reactions()?,
+                groups: group_numbers(&mut groups, sample)?,
                 choices: chosen_numbers(sample, &mut groups, &mut gaps)?,
             };
             let cuts = sample.events.iter().filter(|event| event.kind.cuts());
@@ -1036,10 +1035,13 @@ fn chosen_numbers(
     gaps: &mut [Option<Gap>],
 ) -> Result<Vec<ChosenNumbers>, RowFault> {
     let mut all = Vec::with_capacity(gaps.len());
+    if gaps.is_empty() {
+        return Ok(all);
+    }
     for (found, gap) in sample.chosen()?.into_iter().zip(gaps) {
         note_gap(gap, sample.t, found.refused.as_ref());
         all.push(ChosenNumbers {
-            groups: group_numbers(groups, sample, &found.multipliers)?,
+            groups: numbers_of(groups, sample, &found.multipliers)?,
             reactions: found.reactions,
             choices: Vec::new(),
         });

@@ -208,15 +208,14 @@ impl RowSink for ReactionFiles<'_> {
             return Ok(ControlFlow::Continue(()));
         };
         let reactions = sample.reactions()?;
-        let multipliers = sample.multipliers()?;
-        let groups = group_numbers(&mut self.numbers, sample, &multipliers)?;
+        let groups = group_numbers(&mut self.numbers, sample)?;
         let values = table.row(sample.t, &reactions, &groups)?;
         self.peaks.row(sample.t, values);
         if self.chosen.is_empty() {
             return Ok(ControlFlow::Continue(()));
         }
         for ((table, gap), found) in self.chosen.iter_mut().zip(sample.chosen()?) {
-            let groups = group_numbers(&mut self.numbers, sample, &found.multipliers)?;
+            let groups = numbers_of(&mut self.numbers, sample, &found.multipliers)?;
             table.row(sample.t, &found.reactions, &groups)?;
             note_gap(gap, sample.t, found.refused.as_ref());
         }
@@ -269,15 +268,24 @@ pub(crate) fn note_gap(gap: &mut Option<Gap>, t: f64, refused: Option<&ChoiceErr
     }
 }
 
-/// The numbers of groups at a row, for these multipliers.
+/// The numbers of groups at a row.
 pub(crate) fn group_numbers(
+    numbers: &mut GroupNumbers<'_>,
+    sample: &mut Sample<'_, '_>,
+) -> Result<Chosen<f64>, RowFault> {
+    if numbers.groups().is_empty() {
+        return Ok(Chosen::new(Vec::new(), sample.dropped.to_vec()));
+    }
+    let multipliers = sample.multipliers()?;
+    numbers_of(numbers, sample, &multipliers)
+}
+
+/// The numbers of groups at a row for these multipliers.
+pub(crate) fn numbers_of(
     numbers: &mut GroupNumbers<'_>,
     sample: &Sample<'_, '_>,
     multipliers: &Chosen<f64>,
 ) -> Result<Chosen<f64>, RowFault> {
-    if numbers.groups().is_empty() {
-        return Ok(multipliers.with(Vec::new()));
-    }
     let found = numbers.at(sample.t, sample.q, multipliers);
     // Groups were judged before the run began; what is left is a number that is not finite.
     found.map_err(|e| {

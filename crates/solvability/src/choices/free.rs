@@ -56,12 +56,14 @@ impl<'a> FreeMultipliers<'a> {
     }
 }
 
+/// `C_Xᵀ·Z_X` of equilibrated rows X.
+type Cancelling<'a> = Box<dyn Fn(&RowRanges) -> Result<Matrix, RequestError> + 'a>;
+
 /// The reactions at a pose, with the directions in which their multipliers are free.
 pub(crate) struct Choosing<'a> {
     pub(crate) reactions: &'a ReactionForms<'a>,
     pub(crate) free: FreeMultipliers<'a>,
-    /// `C_Xᵀ·Z_X` of equilibrated rows.
-    pub(crate) b_x: Box<dyn Fn(&RowRanges) -> Result<Matrix, RequestError> + 'a>,
+    pub(crate) b_x: Cancelling<'a>,
 }
 
 impl Choosing<'_> {
