@@ -259,8 +259,7 @@ impl Study {
             },
             accelerations: !many,
             reactions: Reactions::None,
-            groups: Vec::new(),
-            choices: Vec::new(),
+            ..Wanted::default()
         };
         let options = MotionOptions {
             t_end,

@@ -7,7 +7,7 @@ use std::sync::Mutex;
 
 use dynamics::equilibrium::{Equilibrium, EquilibriumError, EquilibriumOptions, equilibrium};
 use dynamics::linearise::{Linearisation, LineariseOptions, linearise};
-use dynamics::plan::{Reactions, Rows};
+use dynamics::plan::{Reactions, Rows, Verdicts};
 use dynamics::{
     Failure, Method, MotionError, MotionFault, MotionOptions, Plan, Prepared, Sample,
     Stabilisation, Stop, Summary, Wanted, simulate_until,
@@ -432,12 +432,21 @@ impl Study {
             t_end: 0.0,
             ..self.motion_to(1.0)
         };
-        let begun = self.run(&options, |sample| {
-            sample.reactions()?;
-            Ok(ControlFlow::Break(()))
+        let wanted = Wanted {
+            accelerations: false,
+            verdicts: Verdicts::None,
+            ..Wanted::default()
+        };
+        let plan = Plan::new(&self.prepared, &options, &wanted);
+        let begun = plan.and_then(|plan| {
+            let begun = plan.simulate(|sample| {
+                sample.reactions()?;
+                Ok(ControlFlow::Break(()))
+            });
+            begun.map_err(|failure| failure.error)
         });
-        let failure = begun.err()?;
-        Some(format!("this mechanism cannot be moved: {}", failure.error))
+        let error = begun.err()?;
+        Some(format!("this mechanism cannot be moved: {error}"))
     }
 
     /// Adds to the document of the start what speaks against a motion: drives that contradict each

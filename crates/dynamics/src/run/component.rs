@@ -19,7 +19,7 @@ use crate::code::SceneCode;
 use crate::error::{MotionError, MotionFault};
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
-use crate::plan::{self, ComponentPlan, Plan};
+use crate::plan::{self, ComponentPlan, Plan, Verdicts};
 use crate::prepare::Prepared;
 
 /// The failure of a run that has not begun.
@@ -63,8 +63,8 @@ pub(super) fn run_component(
         .iter()
         .filter_map(|group| component.share(group))
         .collect();
-    let verdicts = (!wanted.reactions.is_empty())
-        .then(|| RunVerdicts::new(&motion, prepared, options, &groups));
+    let verdicts = (!wanted.reactions.is_empty() && plan.verdicts != Verdicts::None)
+        .then(|| RunVerdicts::new(&motion, prepared, options, (&groups, plan.verdicts)));
     let choices = carried_choices(plan, component, &wanted).map_err(not_begun)?;
     let wanted = (wanted, verdicts);
     let choices = (plan.choices.as_slice(), choices);
