@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use pfaff::ConfigurationAnalysis;
 use pfaff::configuration::KeptAnalysis;
+use pfaff::model::System as _;
 use pfaff::rank::Limits;
 use pfaff::refusal::{Refusal, json};
 use pfaff::report::AnalysisDocument;
@@ -135,7 +136,7 @@ impl Analysis {
             let study = self.of.study()?;
             let along =
                 heard(|ends| Ok(study.verdicts_along_motion_until(t_end, ends, |_| {})?))?;
-            plain(&along.document())
+            plain(&along.document(study.prepared.mechanism.layout()))
         })
     }
 

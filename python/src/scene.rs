@@ -216,7 +216,7 @@ impl Scene {
             }
             for event in sample.events {
                 if let Some(on_event) = on_event {
-                    let document = plain(&EventDocument::from(event)).unwrap_or_default();
+                    let document = plain(&EventDocument::new(event, mechanism.layout())).unwrap_or_default();
                     hearing.call(|py| on_event.call1(py, (document,)));
                 }
             }
@@ -420,9 +420,9 @@ impl Scene {
     }
 
     /// Runs the scene. With `numbers_of_choice` numbers that are not determined on their stretch of
-    /// the run are those of the rows that the run keeps, otherwise NaN; `choices` give the others in
-    /// arrays of their own. `drives` are functions of time, measure and rate in place of laws,
-    /// `forces` functions of the states of bodies, each with its name.
+    /// the run are those of the rows that the run keeps, otherwise NaN; `choices` have arrays of
+    /// their own. `drives` are functions of time, measure and rate in place of laws, `forces`
+    /// functions of the states of bodies, each with its name.
     #[pyo3(signature = (options, numbers_of_choice, choices, on_event, on_row, drives, forces))]
     #[allow(clippy::too_many_arguments)]
     fn simulate(

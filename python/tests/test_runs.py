@@ -11,7 +11,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +19,7 @@ import pytest
 from conftest import PENDULUM, ROOT, SLEIGH
 
 import pfaff
+from pfaff._scene import Choice
 
 
 def test_a_stone_falls() -> None:
@@ -90,8 +91,8 @@ def test_what_is_not_unique_is_not_a_number() -> None:
 
 def test_choices_of_a_run(tmp_path: Path) -> None:
     scene = pfaff.Scene.from_string(SLEIGH)
-    soft = {"left": 1e-6, "right": (3e-6, 1e-3)}
-    asked = ["minimum-norm", soft, [1], "minimum-norm:length=0.5"]
+    soft: Choice = {"left": 1e-6, "right": (3e-6, 1e-3)}
+    asked: list[Choice] = ["minimum-norm", soft, [1], "minimum-norm:length=0.5"]
     run = scene.simulate(choose=asked)
     assert np.isnan(run.reaction("left")["N"]).all()
     names = [choice.name for choice in run.choices]
@@ -117,9 +118,10 @@ def test_choices_of_a_run(tmp_path: Path) -> None:
     assert {"choice.csv", "choice_2.csv"} <= set(written["files"])
     table = np.genfromtxt(tmp_path / "choice_2.csv", delimiter=",", skip_header=1)
     np.testing.assert_array_equal(table[:, 1:], alone.reactions)
-    for wrong in ("least", [soft, "kept-rows"], [[9]], {"lift": 1e-6}):
+    wrong: list[Choice | Sequence[Choice]] = ["least", [soft, "kept-rows"], [[9]], {"lift": 1e-6}]
+    for choose in wrong:
         with pytest.raises(pfaff.Error):
-            scene.simulate(choose=wrong)
+            scene.simulate(choose=choose)
 
 
 def test_verdicts_of_a_run_are_those_of_its_stretch() -> None:
@@ -133,18 +135,30 @@ def test_verdicts_of_a_run_are_those_of_its_stretch() -> None:
         .group("side", combine="left.N + right.N")
         .group("wheels", members=["left", "right"])
     )
-    assert cart.analyze().verdicts["left"].components["Fx"].unique
+    analysis = cart.analyze()
+    left = analysis.verdicts["left"]
+    assert left.components["Fx"].unique
+    assert left.components["Fx"].generic_verdict == "not_unique"
+    assert left.generic_verdict == "not_unique"
+    assert analysis.combine("left + right").components["Fx"].generic_verdict is None
     run = cart.simulate(3.0)
     for name in ("left", "right"):
         assert np.isnan(run.reaction(name).force).all()
         assert run.document["reactions"][name]["components"]["Fx"]["verdict"] == "not_unique"
         assert run.document["reactions"][name]["at_start"]["verdict"] == "not_unique"
-    generic = {r["name"]: r["components"] for r in cart.analyze().along(3.0)["generic"]["reactions"]}
-    for components in generic.values():
-        words = {c["name"]: c["verdict"] for c in components}
-        assert words == {"Fx": "not_unique", "Fy": "not_unique"}
-    special = {(s["time"], s["name"], s["component"], s["verdict"]) for s in run.document["special"]}
-    assert {(0.0, "left", "Fx", "unique"), (0.0, "right", "Fx", "unique")} <= special
+    along = analysis.along(3.0)
+    for name, found in along["reactions"].items():
+        of_run = run.document["reactions"][name]
+        assert found["verdict"] == of_run["verdict"] == "not_unique"
+        for component, own in found["components"].items():
+            assert own == {"verdict": of_run["components"][component]["verdict"]}
+        assert found["components"]["Fx"]["verdict"] == "not_unique"
+    for document in (run.document, along):
+        special = {(s["time"], s["name"], s["component"], s["verdict"]) for s in document["special"]}
+        assert {(0.0, "left", "Fx", "unique"), (0.0, "right", "Fx", "unique")} <= special
+    # Across is x after a quarter turn: the force along y is zero there.
+    quarter = [s for s in along["special"] if (s["name"], s["component"]) == ("left", "Fy")]
+    np.testing.assert_allclose([s["time"] for s in quarter], [math.pi / 2.0], atol=1e-6)
     # The sum is m·v·omega, to the left of the cart, on its first body.
     both, angle = run.group("both"), run.body("cart").angle
     across = np.column_stack((-np.sin(angle), np.cos(angle)))
@@ -154,6 +168,8 @@ def test_verdicts_of_a_run_are_those_of_its_stretch() -> None:
     side = run.group("side")
     np.testing.assert_allclose(np.abs(side[side.columns[0]]), 10.0, atol=1e-5)
     assert run.reaction_columns[-4:] == ["both.Fx", "both.Fy", "both.T", "side"]
+    assert not run.document["groups"]["side"]["fragile"]
+    assert run.document["groups"]["side"]["sensitivity"] < 0.1
     # One verdict for several joints has no number.
     assert run.document["groups"]["wheels"]["verdict"] == "not_unique"
     with pytest.raises(pfaff.InputError, match="there is no group with numbers `wheels`"):
@@ -203,6 +219,34 @@ def test_what_is_unique_at_the_start_only_has_no_number() -> None:
     for other in runs:
         np.testing.assert_allclose(other.trajectory, runs[0].trajectory, atol=1e-6)
         np.testing.assert_array_equal(np.isnan(other.reaction("guide-x")["Fx"]), False)
+
+
+def test_an_impulse_has_verdicts() -> None:
+    """A wheel of 2 kg and 0.3 kg·m², 0.5 m off its pin, at 2 rad/s and from 1 s on at -1 rad/s."""
+    both = {"bodies": ["ground", "wheel"], "at": [0.0, 0.0]}
+    motion = {"type": "linear-table", "times": [0.0, 1.0, 3.0], "values": [0.0, 2.0, 0.0]}
+    wheel = (
+        pfaff.Scene("wheel", space="plane")
+        .body("wheel", mass=2.0, inertia=0.3, position=[0.5, 0.0])
+        .joint("pin", "revolute", **both)
+        .drive("motor", joint="pin", type="angle", motion=motion)
+    )
+    told: list[pfaff.Event] = []
+    run = wheel.simulate(2.0, on_event=told.append)
+    assert told == run.events
+    [impulses] = [event.impulses for event in run.events if event.kind == "impulse"]
+    pin, motor = (impulses[name]["components"] for name in ("pin", "motor"))
+    np.testing.assert_allclose(pin["Fx"]["value"], -3.0 * math.sin(2.0))
+    np.testing.assert_allclose(pin["Fy"]["value"], 3.0 * math.cos(2.0))
+    assert motor["drive"]["verdict"] == "unique"
+    np.testing.assert_allclose(motor["drive"]["value"], 3.0 * (0.3 + 2.0 * 0.5**2))
+    # Two pins at one place share it in any way.
+    run = wheel.joint("other", "revolute", **both).simulate(2.0)
+    [impulses] = [event.impulses for event in run.events if event.kind == "impulse"]
+    for name in ("pin", "other"):
+        for component in impulses[name]["components"].values():
+            assert component == {"value": None, "verdict": "not_unique"}
+    assert impulses["motor"]["components"]["T"]["verdict"] == "unique"
 
 
 def test_arrays_are_made_once_and_stay() -> None:

@@ -50,6 +50,38 @@ def test_a_door_on_two_hinges() -> None:
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_couplings_have_their_own_force() -> None:
+    """An arm at rest below its pivot, and a seat of 3 kg that does not turn, 0.25 m off its hinge."""
+    level = {"measures": ["pivot.angle", "hinge.angle"], "ratio": -1.0}
+    swing = (
+        pfaff.Scene("swing", space="plane", gravity=[0.0, -10.0])
+        .body("arm", mass=1.0, inertia=0.1, position=[0.0, -0.5])
+        .body("seat", mass=3.0, inertia=0.2, position=[0.25, -1.0])
+        .joint("pivot", "revolute", ["ground", "arm"], at=[0.0, 0.0])
+        .joint("hinge", "revolute", ["arm", "seat"], at=[0.0, -1.0])
+        .joint("level", "coupling", **level)
+    )
+    verdict = swing.analyze().verdicts["level"]
+    assert verdict.unique and not verdict.fragile
+    torque, load = (verdict.components[name] for name in ("T", "load"))
+    assert torque.sensitivity is not None and torque.sensitivity == load.sensitivity
+    assert verdict.directions is not None and verdict.directions.shape == (1, 1)
+    assert swing.analyze().combine("level.load").value == pytest.approx(-7.5)
+    doubled = swing.joint("again", "coupling", **level)
+    verdict = doubled.analyze().verdicts["level"]
+    assert {name: c.verdict for name, c in verdict.components.items()} == {
+        "T": "not_unique",
+        "load": "not_unique",
+    }
+    assert verdict.directions is not None and verdict.directions.shape == (0, 1)
+    both = doubled.analyze().combine("level.load + again.load")
+    assert both.unique and not both.fragile and both.sensitivity is not None
+    run = doubled.simulate(0.1)
+    for name in ("T", "load"):
+        assert np.isnan(run.reaction("level")[name]).all()
+    np.testing.assert_array_equal(run.reaction("level").force, 0.0)
+
+
 def test_directions_are_rows(path: Path) -> None:
     """As many columns as the joint has components, in space six; also if there is no row."""
     analysis = pfaff.Scene.from_file(path).analyze()

@@ -188,7 +188,7 @@ normal = [0, 1, 0]
             let id = ConstraintId(id.expect("it is a joint"));
             p.mechanism
                 .reactions(&s)
-                .reaction(id, &found.multipliers)
+                .reaction(id, found.multipliers.as_chosen())
                 .force[1]
         })
         .collect();

@@ -1,16 +1,16 @@
-//! Verdicts along a motion: one generic verdict, and the instants and intervals with other
-//! verdicts. Parallel cranks in closed form: every crank has the angle θ(t), the coupler
+//! Verdicts along a motion: by stretches of time, and the instants with other verdicts. Parallel cranks in closed form: every crank has the angle θ(t), the coupler
 //! translates; θ = 0 is flat.
 
-use std::cell::RefCell;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
 
-use dynamics::{MotionOptions, RowChoice, prepare, simulate};
+use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
 use joints::RevoluteAngleDrive;
-use model::{BodyRef, Drive, Function, Mechanism, StartOptions};
+use model::{BodyRef, Drive, Function, Layout, Mechanism, Registry, StartOptions, System};
+use pfaff::{Overrides, Study};
 use solvability::{
-    Along, AlongError, Continuation, Part, Passage, PassageKind, State, Verdict, along_motion,
+    Along, AlongError, Continuation, PassageKind, State, Stretches, Verdict, VerdictTrack,
+    along_motion,
 };
 use tests::cranks::cranks;
 use tests::robot::{robot, steering};
@@ -108,7 +108,7 @@ fn three_cranks_pass_their_flat_pose_on_one_way() {
         (&by_drive, 2),
     ] {
         let along = along_motion(mechanism, motion, &times(0.0, 1.0, intervals)).expect("judged");
-        assert_eq!(along.generic.decision.redundancy, 1);
+        assert_eq!(along.generic.redundancy, 1);
         assert!(along.stretches.is_empty());
         let (time, redundancy, continuation, text) = one_drop(&along);
         assert!((time - exact).abs() < 1e-10, "{time}");
@@ -120,7 +120,7 @@ fn three_cranks_pass_their_flat_pose_on_one_way() {
         ] {
             assert!(text.contains(part), "{text}");
         }
-        let [from, to] = along.passages[0].nearly_singular.expect("an interval");
+        let [from, to] = along.passages[0].nearly_singular;
         // σ is about 0.4·θ.
         assert!(0.3e-3 < exact - from && exact - from < 10e-3, "{from}");
         assert!(((to - exact) / (exact - from) - 1.0).abs() < 1e-2, "{to}");
@@ -148,7 +148,7 @@ fn two_cranks_bifurcate_also_where_a_sample_hits() {
     let drive = driven(&TWO, -0.5, Function::constant_rate(1.0).expect("finite"));
     for mechanism in [free(&TWO), drive] {
         let along = along_motion(&mechanism, motion, &times(0.0, 1.0, 20)).expect("judged");
-        assert_eq!(along.generic.decision.redundancy, 0);
+        assert_eq!(along.generic.redundancy, 0);
         let (time, redundancy, continuation, text) = one_drop(&along);
         assert!((time - 0.5).abs() < 1e-10, "{time}");
         assert_eq!(redundancy, 1);
@@ -168,7 +168,7 @@ fn two_cranks_bifurcate_also_where_a_sample_hits() {
         let became: Vec<_> = along.passages[0]
             .differences
             .iter()
-            .filter(|d| d.part == Part::Wrench)
+            .filter(|d| d.component.is_none())
             .map(|d| (d.reaction.as_str(), d.here.clone()))
             .collect();
         let expected = ["pivot 1", "tip 1", "pivot 2", "tip 2"].map(|j| (j, Verdict::NotUnique));
@@ -197,7 +197,7 @@ fn a_flat_pose_that_is_nearly_reached_is_told_with_its_singular_value() {
     let nearest = |offset: f64| {
         let motion = |t: f64| parallel(&THREE, offset + (t - 0.4) * (t - 0.4), 2.0 * (t - 0.4));
         let along = along_motion(&free(&THREE), motion, &times(0.0, 1.0, 50)).expect("judged");
-        assert_eq!(along.generic.decision.redundancy, 1);
+        assert_eq!(along.generic.redundancy, 1);
         let [passage] = along.passages.as_slice() else {
             panic!("{:?}", along.passages);
         };
@@ -213,31 +213,52 @@ fn a_flat_pose_that_is_nearly_reached_is_told_with_its_singular_value() {
     assert!(matches!(nearest(1e-9), PassageKind::Undecided { .. }));
 }
 
+/// The special instants of a component of the verdicts along a motion, with their words.
+fn special(along: &Along, reaction: usize, component: &str) -> Vec<(f64, &'static str)> {
+    let track = along.verdicts.reactions[reaction].component(component);
+    let special = track.expect("a component").special().iter();
+    special.map(|s| (s.time, s.verdict.word())).collect()
+}
+
 /// In three full turns the cranks are flat six times, and upright six times: when upright, all
-/// forces along them are vertical.
+/// forces along them are vertical. In both poses a component is unique that is not on the way.
 #[test]
 fn every_flat_pose_and_every_upright_one_of_several_turns() {
     let motion = |t: f64| parallel(&THREE, 0.3 + t, 1.0);
-    let drops = |p: &Passage| matches!(p.kind, PassageKind::RankDrops { .. });
+    let joints = cranks(&THREE, LENGTH, 1.0).joints;
+    let tip = joints.iter().position(|joint| joint.name == "tip 2");
+    let tip = tip.expect("a joint");
     for intervals in [60, 20] {
         let times = times(0.0, 19.0, intervals);
         let along = along_motion(&free(&THREE), motion, &times).expect("judged");
-        assert_eq!(along.passages.len(), 12, "{intervals}");
+        assert_eq!(along.passages.len(), 6, "{intervals}");
         for (k, p) in along.passages.iter().enumerate() {
-            let exact = FRAC_PI_2 * (k + 1) as f64 - 0.3;
+            let exact = FRAC_PI_2 * (2 * k + 2) as f64 - 0.3;
             assert!((p.time - exact).abs() < 1e-10, "{}", p.text);
-            assert_eq!(drops(p), k % 2 == 1, "{}", p.text);
+            assert!(matches!(p.kind, PassageKind::RankDrops { .. }));
             let mut differences = p.differences.iter();
             let difference = differences
                 .find(|d| d.reaction == "tip 2")
                 .expect("differs");
-            assert_eq!(difference.part, Part::Component(["Fx", "Fy"][k % 2]));
+            assert_eq!(difference.component, Some("Fy"));
             assert_eq!(difference.here, Verdict::Unique);
+        }
+        for (first, component) in [(1, "Fx"), (2, "Fy")] {
+            let track = along.verdicts.reactions[tip].component(component);
+            let of_run = track.expect("a component").of_run();
+            assert_eq!(*of_run, Verdict::NotUnique);
+            let found = special(&along, tip, component);
+            assert_eq!(found.len(), 6, "{component}: {found:?}");
+            for (k, (time, word)) in found.iter().enumerate() {
+                let exact = FRAC_PI_2 * (2 * k + first) as f64 - 0.3;
+                let is_there = (time - exact).abs() < 1e-10;
+                assert!(is_there && *word == "unique", "{found:?}");
+            }
         }
     }
     // Samples more than a quarter turn apart miss upright poses, but no change of the rank.
     let along = along_motion(&free(&THREE), motion, &times(0.0, 19.0, 11)).expect("judged");
-    assert_eq!(along.passages.iter().filter(|p| drops(p)).count(), 6);
+    assert_eq!(along.passages.len(), 6);
 }
 
 /// θ = 3·(t − 0.41…)·(t − 0.97) is 1.2 and 0.05 at the two samples and passes zero twice between
@@ -300,11 +321,7 @@ fn a_pendulum_beside_the_cranks() {
             }
         };
         let along = along_motion(&mechanism, motion, &times(0.0, 0.9, 20)).expect("judged");
-        let mut drops = along
-            .passages
-            .iter()
-            .filter(|p| p.kind != PassageKind::Verdicts);
-        let (Some(p), None) = (drops.next(), drops.next()) else {
+        let [p] = along.passages.as_slice() else {
             panic!("{:?}", along.passages);
         };
         let PassageKind::RankDrops { continuation, .. } = &p.kind else {
@@ -332,7 +349,7 @@ fn a_rest_in_a_singular_pose_is_a_stretch() {
         parallel(&THREE, theta, omega)
     };
     let along = along_motion(&mechanism, motion, &times(0.0, 3.0, 15)).expect("judged");
-    assert_eq!(along.generic.decision.redundancy, 1);
+    assert_eq!(along.generic.redundancy, 1);
     let [rest] = along.stretches.as_slice() else {
         panic!("{:?}", along.stretches);
     };
@@ -350,71 +367,132 @@ fn a_rest_in_a_singular_pose_is_a_stretch() {
 fn the_robot_has_one_verdict_and_one_stretch_with_another() {
     let mechanism = Mechanism::build(&robot(steering())).expect("builds");
     let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts");
-    let rows = RefCell::new(Vec::new());
     let run = MotionOptions {
         output_step: 0.01,
         ..MotionOptions::to(10.0)
     };
-    simulate(&p, &run, |s| {
-        let state = State {
-            q: s.q.to_vec(),
-            v: s.v.to_vec(),
+    let (motion, verdicts) = recorded(&p, &run);
+    let times = times(0.0, 10.0, 200);
+    let along = along_motion(&p.mechanism, motion, &times).expect("judged");
+    assert_eq!(along.generic.rank, 20);
+    assert!(along.stretches.is_empty() && along.passages.is_empty());
+    let layout = p.mechanism.layout();
+    let open: Vec<&str> = (along.verdicts.reactions.iter())
+        .filter(|r| *r.whole.of_run() == Verdict::NotUnique)
+        .map(|r| layout.groups[r.id.0].name.as_str())
+        .collect();
+    assert_eq!(open, ["B", "C", "W1", "W2", "W3", "W4"]);
+    // Straight up to 1 s: until then the forces that are not unique lie along y.
+    for name in &open {
+        let k = layout.groups.iter().position(|g| g.name == *name);
+        let k = k.expect("a joint");
+        let track = |component| {
+            let track = along.verdicts.reactions[k].component(component);
+            track.expect("a component")
         };
-        rows.borrow_mut().push((s.t, state));
+        assert_eq!(track("Fx").determined(), [[0.0, 1.0]], "{name}");
+        assert_eq!(*track("Fx").at(1.0), Verdict::NotUnique, "{name}");
+        assert_eq!(track("Fy").determined(), [[0.0; 2]; 0], "{name}");
+        // The end of the straight part is still straight.
+        assert_eq!(special(&along, k, "Fx")[0], (1.0, "unique"), "{name}");
+    }
+    // Twice within a tenth of a second the edge of the rear wheels points along y, and row 6 (y of
+    // C) is in no dependency: the margins of neighbouring samples have one minimum for both.
+    let c = layout.groups.iter().position(|g| g.name == "C");
+    let found = special(&along, c.expect("a joint"), "Fy");
+    for expected in [6.485457, 6.566298] {
+        let near = |(t, word): &(f64, &str)| (t - expected).abs() < 1e-4 && *word == "unique";
+        assert!(found.iter().any(near), "{expected} in {found:?}");
+    }
+    assert_agree(&along, &verdicts, layout, run.output_step);
+}
+
+/// Runs a mechanism, and returns its motion by cubic interpolation between rows, and the verdicts
+/// of the run.
+fn recorded(p: &Prepared, options: &MotionOptions) -> (impl Fn(f64) -> State, Stretches) {
+    let mut rows = Vec::new();
+    let summary = simulate(p, options, |s| {
+        let mut rate = vec![0.0; s.q.len()];
+        p.mechanism.rate(s.q, s.v, &mut rate);
+        rows.push((s.t, s.q.to_vec(), rate, s.v.to_vec()));
         Ok(ControlFlow::Continue(()))
-    })
-    .expect("moves");
-    let rows = rows.into_inner();
-    // Cubic Hermite interpolation between rows.
-    let motion = |t: f64| {
+    });
+    let verdicts = summary.expect("moves").verdicts.expect("requested");
+    let motion = move |t: f64| {
         let k = rows.partition_point(|r| r.0 <= t).clamp(1, rows.len() - 1);
-        let ((a, x), (b, y)) = (&rows[k - 1], &rows[k]);
+        let ((a, x, x_rate, v), (b, y, y_rate, w)) = (&rows[k - 1], &rows[k]);
         let (h, u) = (b - a, (t - a) / (b - a));
         let at = |i: usize| {
-            let (d, f, g) = (y.q[i] - x.q[i], h * x.v[i], h * y.v[i]);
+            let (d, f, g) = (y[i] - x[i], h * x_rate[i], h * y_rate[i]);
             let (c_2, c_3) = (3.0 * d - 2.0 * f - g, f + g - 2.0 * d);
-            let q = x.q[i] + u * (f + u * (c_2 + u * c_3));
-            (q, (f + u * (2.0 * c_2 + 3.0 * u * c_3)) / h)
+            x[i] + u * (f + u * (c_2 + u * c_3))
         };
-        let (q, v) = (0..x.q.len()).map(at).unzip();
-        State { q, v }
+        let between = v.iter().zip(w).map(|(v, w)| v + u * (w - v));
+        State {
+            q: (0..x.len()).map(at).collect(),
+            v: between.collect(),
+        }
     };
-    let along = along_motion(&p.mechanism, motion, &times(0.0, 10.0, 200)).expect("judged");
-    let names = |word: &str| -> Vec<&str> {
-        let found = along
-            .generic
-            .reactions
-            .iter()
-            .filter(|r| r.wrench.verdict.word() == word);
-        found.map(|r| r.name.as_str()).collect()
-    };
-    assert_eq!(along.generic.decision.rank, 20);
-    assert_eq!(names("not_unique"), ["B", "C", "W1", "W2", "W3", "W4"]);
-    let [straight] = along.stretches.as_slice() else {
-        panic!("{:?}", along.stretches);
-    };
-    assert_eq!((straight.from, straight.to), (0.0, 1.0));
-    let rows: Vec<usize> = straight
-        .differences
-        .iter()
-        .filter_map(|d| match &d.part {
-            Part::Row(label) => Some(label.number),
-            _ => None,
-        })
-        .collect();
-    assert_eq!(rows, [3, 5]);
-    assert!(
-        along
-            .passages
-            .iter()
-            .all(|p| p.kind == PassageKind::Verdicts)
-    );
-    // Twice within a tenth of a second row 6 of C is in no dependency: the margins of neighbouring
-    // samples have one minimum for both.
-    for expected in [6.485457, 6.566298] {
-        let near = |p: &solvability::Passage| (p.time - expected).abs() < 1e-4;
-        let times: Vec<f64> = along.passages.iter().map(|p| p.time).collect();
-        assert!(along.passages.iter().any(near), "{expected} in {times:?}");
+    (motion, verdicts)
+}
+
+/// The motions of all examples, up to 2 s.
+#[test]
+fn along_the_motion_of_an_example_the_verdicts_are_those_of_its_run() {
+    let names = super::examples::files(".toml");
+    assert!(names.len() > 30, "{names:?}");
+    for name in names {
+        let text = super::examples::read(&super::examples::scene(&name));
+        let study = Study::read(&name, &text, &Registry::standard(), &Overrides::default());
+        let study = study.unwrap_or_else(|e| panic!("{name}: {e}"));
+        let base = study.options.clone().expect("every example says how long");
+        let t_end = base.t_end.min(2.0);
+        let options = MotionOptions {
+            t_end,
+            output_step: t_end / 400.0,
+            ..base
+        };
+        let (motion, verdicts) = recorded(&study.prepared, &options);
+        let mechanism = &study.prepared.mechanism;
+        let along = along_motion(mechanism, motion, &times(0.0, t_end, 100));
+        let along = along.unwrap_or_else(|e| panic!("{name}: {e}"));
+        println!("{name}");
+        let step = options.output_step;
+        assert_agree(&along, &verdicts, mechanism.layout(), step);
+        // The same from the motion that the library runs itself.
+        let own = study.verdicts_along_motion(Some(t_end), |_| {});
+        let own = own.unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_agree(&own.along, &verdicts, mechanism.layout(), step);
+    }
+}
+
+/// The verdicts along a motion are those that a run read from its factors: of each component on the
+/// same stretches. Its special instants are found exactly at the start; others lie within rows of
+/// the run, which takes for one what it cannot tell from one.
+fn assert_agree(along: &Along, run: &Stretches, layout: &Layout, between_rows: f64) {
+    assert_eq!(along.verdicts.reactions.len(), run.reactions.len());
+    for (found, expected) in along.verdicts.reactions.iter().zip(&run.reactions) {
+        let name = &layout.groups[found.id.0].name;
+        let components = found.components.iter().zip(&expected.components);
+        for ((component, found), (_, expected)) in components {
+            let words = |track: &VerdictTrack| -> Vec<(f64, f64, &str)> {
+                let each = track.stretches().iter();
+                each.map(|s| (s.from, s.to, s.verdict.word())).collect()
+            };
+            assert_eq!(words(found), words(expected), "{name}.{component}");
+            let decided = expected.special().iter();
+            for special in decided.filter(|s| s.verdict.is_decided()) {
+                let reach = if special.time == 0.0 {
+                    0.0
+                } else {
+                    2.0 * between_rows
+                };
+                let is_listed = found.special().iter().any(|s| {
+                    s.verdict == special.verdict && (s.time - special.time).abs() <= reach
+                });
+                assert!(is_listed, "{name}.{component}: {special:?}");
+            }
+        }
     }
 }
 

@@ -53,7 +53,8 @@ impl State {
 
     fn lambda_0(&self) -> Result<Vec<f64>, ChoiceError> {
         let decision = self.configuration().solvability().decision().clone();
-        Equations::of(&self.mechanism, self.t, &self.q, &self.v)?.multipliers(&decision)
+        let equations = Equations::of(&self.mechanism, self.t, &self.q, &self.v)?;
+        Ok(equations.multipliers(&decision)?.as_chosen().to_vec())
     }
 
     fn distribute(&self, choice: &Choice) -> Result<Distribution, ChoiceError> {

@@ -125,14 +125,14 @@ fn compare(
     let questions = Questions::new(mechanism, &q, Arc::clone(&analysis));
     let solution = Solution {
         acceleration: sample.acceleration()?,
-        multipliers: sample.multipliers()?.as_chosen().to_vec(),
+        multipliers: sample.multipliers()?,
         no_finite: Vec::new(),
     };
     let mut s = mechanism.scratch();
     mechanism.pose(t, &q, &mut s);
     mechanism.c(&mut s);
     let c = mechanism.layout().dense(&s);
-    let load = c.transpose_times(&solution.multipliers);
+    let load = c.transpose_times(solution.multipliers.as_chosen());
     let size = largest(load.iter().copied());
     assert!(size > 1.0, "{size}");
     let own = sample.reactions()?;

@@ -91,6 +91,99 @@ fn a_jump_of_the_rate_is_an_impulse_with_its_energy() {
     }
 }
 
+/// A wheel with its centre off the pin, driven at 2 rad/s and from t = 1 at −1 rad/s, on one pin or
+/// on two at one place.
+fn eccentric(pins: usize) -> Prepared {
+    let both = [BodyRef::Ground, BodyRef::Body(0)];
+    let mut d = Description {
+        name: "eccentric wheel".into(),
+        bodies: vec![Body {
+            name: "wheel".into(),
+            mass: MASS,
+            inertia: INERTIA,
+            position: [0.5, 0.0],
+            ..Body::default()
+        }],
+        ..Description::default()
+    };
+    for k in 0..pins {
+        let pin = Revolute {
+            s_i: [0.0; 2],
+            s_j: [-0.5, 0.0],
+        };
+        d.joints.push(Joint::new(&format!("pin {k}"), &both, pin));
+    }
+    d.drives.push(Drive {
+        tolerance: None,
+        name: "motor".into(),
+        bodies: both.to_vec(),
+        element: Box::new(RevoluteAngleDrive::new([0.0; 2], [-0.5, 0.0])),
+        motion: Function::lines(&[0.0, 1.0, 3.0], &[0.0, 2.0, 0.0]).expect("two lines"),
+    });
+    let mechanism = Mechanism::build(&d).expect("builds");
+    prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts")
+}
+
+/// The impulse of the run: for each joint and drive its components.
+fn impulses(prepared: &Prepared) -> Vec<Vec<(&'static str, Option<f64>, &'static str)>> {
+    let options = MotionOptions::to(2.0);
+    let summary = simulate(prepared, &options, |_| Ok(ControlFlow::Continue(())));
+    let summary = summary.unwrap_or_else(|e| panic!("{e}"));
+    let [event] = summary.events.as_slice() else {
+        panic!("one event: {:?}", summary.events);
+    };
+    let each = event.impulses.iter().map(|impulse| {
+        let components = impulse.components.iter();
+        components
+            .map(|(name, value)| (*name, value.determined(), value.verdict().word()))
+            .collect()
+    });
+    each.collect()
+}
+
+fn is_close(found: Option<f64>, expected: f64) -> bool {
+    found.is_some_and(|found| (found - expected).abs() < 1e-9)
+}
+
+/// The rate jumps by −3 rad/s where the wheel has turned by 2 rad: the centre, 0.5 m off the pin,
+/// by −1.5 m/s across the arm, the moment of momentum about the pin by −3·(0.3 + 2·0.25) N·m·s. The
+/// ground has the opposite of both.
+#[test]
+fn an_impulse_has_components_with_verdicts() {
+    let (s, c) = 2f64.sin_cos();
+    let found = impulses(&eccentric(1));
+    let [pin, motor] = found.as_slice() else {
+        panic!("{found:?}");
+    };
+    assert!(pin.iter().chain(motor).all(|(.., word)| *word == "unique"));
+    let [(_, x, _), (_, y, _)] = pin[..] else {
+        panic!("{pin:?}");
+    };
+    assert!(is_close(x, -3.0 * s) && is_close(y, 3.0 * c), "{pin:?}");
+    let names: Vec<&str> = motor.iter().map(|(name, ..)| *name).collect();
+    assert_eq!(names, ["T", "drive"]);
+    assert!(
+        motor.iter().all(|(_, value, _)| is_close(*value, 2.4)),
+        "{motor:?}"
+    );
+}
+
+/// Two pins at one place share the impulse in any way; the motor has its own.
+#[test]
+fn an_impulse_that_is_not_unique_has_no_number() {
+    let found = impulses(&eccentric(2));
+    let [first, second, motor] = found.as_slice() else {
+        panic!("{found:?}");
+    };
+    for pin in [first, second] {
+        let expected = [("Fx", None, "not_unique"), ("Fy", None, "not_unique")];
+        assert_eq!(pin[..], expected);
+    }
+    for (_, value, word) in motor {
+        assert!(is_close(*value, 2.4) && *word == "unique", "{motor:?}");
+    }
+}
+
 #[test]
 fn a_jump_of_the_position_is_refused_with_the_drive_and_the_time() {
     let jump = Function::lines(&[0.0, 1.0, 1.0, 2.0], &[0.0, 0.5, 0.75, 1.0]).expect("a jump");

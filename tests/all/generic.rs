@@ -1,9 +1,9 @@
 //! Permanent or singular: the comparison with other configurations, and its results.
 
-use joints::{Revolute, RevoluteAngleDrive, Velocity, plane::Direction};
+use joints::{KnifeEdge, Revolute, RevoluteAngleDrive, Velocity, plane::Direction};
 use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, Registry};
 use pfaff::{Overrides, Study};
-use solvability::{Generic, analyse, generic, is_permanent};
+use solvability::{Generic, analyse, generic, generic_with_verdicts, is_permanent};
 use tests::cranks::cranks;
 use tests::robot::{robot, steering};
 
@@ -70,6 +70,68 @@ fn cranks_are_compared_with_themselves_elsewhere() {
     }
 }
 
+/// The verdicts on a component here and at other configurations.
+fn here_and_elsewhere(d: &Description, joint: &str, component: &str) -> [&'static str; 2] {
+    let mechanism = Mechanism::build(d).expect("builds");
+    let (q, _) = mechanism.described_state();
+    let analysis = analyse(&mechanism, 0.0, &q).expect("finite");
+    let (found, verdicts) = generic_with_verdicts(&mechanism, 0.0, &q).expect("it moves");
+    assert_eq!(Some(found), generic(&mechanism, 0.0, &q));
+    let verdicts = verdicts.expect("known");
+    let here = analysis.reactions.iter().find(|r| r.name == joint);
+    let here = here.expect("a joint");
+    let own = here.components.iter().find(|c| c.name == component);
+    let generic = verdicts[here.id.0].component(component);
+    let own = own.expect("a component").judgement.verdict.word();
+    [own, generic.expect("a component").word()]
+}
+
+/// Three cranks carry a load that two of them could carry, along the cranks: upright it has no part
+/// along x. Two cranks are redundant where they are flat, and nowhere else.
+#[test]
+fn verdicts_elsewhere_are_those_of_components() {
+    let unique = "unique";
+    let open = "not_unique";
+    let upright = cranks(&[0.0, 1.0, 1.7], 0.5, std::f64::consts::FRAC_PI_2);
+    let oblique = cranks(&[0.0, 1.0, 1.7], 0.5, 1.0);
+    let flat = cranks(&[0.0, 1.0], 0.5, 0.0);
+    for joint in ["pivot 1", "tip 2", "pivot 3"] {
+        let of = |d, component| here_and_elsewhere(d, joint, component);
+        assert_eq!(of(&upright, "Fx"), [unique, open], "{joint}");
+        assert_eq!(of(&upright, "Fy"), [open, open], "{joint}");
+        assert_eq!(of(&oblique, "Fx"), [open, open], "{joint}");
+    }
+    for joint in ["pivot 1", "tip 2"] {
+        assert_eq!(
+            here_and_elsewhere(&flat, joint, "Fx"),
+            [open, unique],
+            "{joint}"
+        );
+    }
+}
+
+/// A cart on two wheels of one axle: they share a force along the axle, which turns with the cart.
+#[test]
+fn a_cart_that_turns_has_both_components_open() {
+    let wheel = |name: &str, y: f64| {
+        let element = KnifeEdge {
+            s: [0.0, y],
+            normal: Direction::Y,
+        };
+        Joint::new(name, &[BodyRef::Body(0)], element)
+    };
+    let d = Description {
+        bodies: vec![beam()],
+        joints: vec![wheel("left", 0.5), wheel("right", -0.5)],
+        ..Description::default()
+    };
+    for name in ["left", "right"] {
+        let of = |component| here_and_elsewhere(&d, name, component);
+        assert_eq!(of("Fx"), ["unique", "not_unique"]);
+        assert_eq!(of("Fy"), ["not_unique", "not_unique"]);
+    }
+}
+
 /// The robot with straight wheels: rank 20 there and at other configurations.
 #[test]
 fn the_robot_is_redundant_everywhere() {
@@ -95,6 +157,9 @@ fn a_structure_cannot_be_compared() {
         ..Description::default()
     };
     assert_eq!(at_start(&d), (1, None));
+    let mechanism = Mechanism::build(&d).expect("builds");
+    let (q, _) = mechanism.described_state();
+    assert_eq!(generic_with_verdicts(&mechanism, 0.0, &q), None);
 }
 
 fn beam() -> Body {

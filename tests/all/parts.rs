@@ -7,8 +7,8 @@ use exact::{Dyadic, Exact};
 use model::{ConstraintId, Mechanism, System};
 use rank::Limits;
 use solvability::{
-    Allowed, Analysis, Choice, Distribution, Group, GroupVerdict, NormWeights, Questions, Solution,
-    Value, Verdict, analyse, analyse_by_cycles,
+    Allowed, Analysis, Choice, Chosen, Distribution, Group, GroupVerdict, NormWeights, Questions,
+    Solution, Value, Verdict, analyse, analyse_by_cycles,
 };
 use tests::numbers::Numbers;
 
@@ -129,7 +129,7 @@ fn questions_are_answered_by_parts_as_by_the_whole() {
             .collect();
         let solution = Solution {
             acceleration: vec![0.0; mechanism.layout().n_v],
-            multipliers,
+            multipliers: Chosen::new(multipliers, Vec::new()),
             no_finite: Vec::new(),
         };
         let least = Choice::MinimumNorm(NormWeights::NEWTON_METRE);

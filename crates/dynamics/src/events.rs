@@ -1,5 +1,8 @@
 //! Events during a run that are reported to the user.
 
+use model::ConstraintId;
+use solvability::Value;
+
 /// One event.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
@@ -15,6 +18,20 @@ pub struct Event {
     pub dropped: Vec<usize>,
     /// Description.
     pub text: String,
+    /// The impulses of all joints and drives where velocities jump; empty at other events, and
+    /// if no reactions are requested.
+    pub impulses: Vec<ReactionImpulse>,
+}
+
+/// The impulse of a joint or drive where velocities jump: the integral of its reaction over the
+/// instant, with the components of the reaction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReactionImpulse {
+    /// The joint or drive.
+    pub id: ConstraintId,
+    /// The components that are not identically zero, and the named one of the definition, with
+    /// their names and their verdicts at this instant (N·s, N·m·s).
+    pub components: Vec<(&'static str, Value)>,
 }
 
 impl Event {
@@ -27,6 +44,7 @@ impl Event {
             redundancy_after: dropped.len(),
             dropped: dropped.to_vec(),
             text,
+            impulses: Vec::new(),
         }
     }
 }

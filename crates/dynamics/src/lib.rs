@@ -39,7 +39,7 @@ mod watch;
 
 pub use code::{CodeInput, CodeInputs, CodeMismatch, CodeSpec, NoCode, SceneCode};
 pub use error::{DropError, MotionError, MotionFault};
-pub use events::{Event, EventKind};
+pub use events::{Event, EventKind, ReactionImpulse};
 pub use manifold::Correction;
 pub use motion::KeptRowMotion;
 pub use options::{FORMULATION, Method, MotionOptions, RowChoice, Stabilisation};

@@ -5,6 +5,7 @@ joint! { plane Gear(i, j, carrier) {
         /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh.
         ratio: Ratio,
     }
+    require "the ratio is not zero": ratio * ratio > 0.0;
     initial { phase: Angle = angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) }
     rows: [mesh];
     phi: angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) - phase;

@@ -5,6 +5,11 @@
 //! space by the sine of what is left of the angle ([`joints::spec::ConstraintSpec::turning`]). A
 //! coupling has the kernels of two drives, x and y their measures since the start, and the row `y −
 //! (ratio·x + c₂·x² + …) = 0`.
+//!
+//! Its multiplier is its load: the force or torque along y, as that of a drive of y. Its reaction
+//! is that of this drive: on the first body of the joint of y, at the place of that joint. It is
+//! not the total on a body: a body that both joints share has the load along x, too, and the two
+//! may cancel.
 
 mod element;
 mod error;
@@ -23,6 +28,9 @@ use side::Side;
 pub use crate::element::{Measured, Placed};
 pub use error::CouplingError;
 
+/// Type of couplings in scene files.
+pub(crate) const TYPE: &str = "coupling";
+
 /// Name of the datum with the initial value of a measure that has a row of its own.
 const OF_ROW: &str = "measure_0";
 
@@ -32,9 +40,6 @@ struct Coupling<S: BodySpace> {
     /// The measure x, and y that follows it.
     sides: [Side<S>; 2],
     law: Polynomial,
-    /// How the joints of both meet the first body: with their first body (1), with their second
-    /// (−1), or not at all.
-    meets: [f64; 2],
     facts: &'static facts::Facts,
 }
 
@@ -53,11 +58,9 @@ where
     Coupling<S>: ConstraintKernels<S>,
 {
     let law = Polynomial::new(coefficients).ok_or(CouplingError::Coefficients)?;
-    // The first body is one that the coupling loads: the second of the joint of x, unless that is
-    // the ground.
-    let of_x = &measures[0].0;
-    let loaded = of_x.iter().rev().find(|body| body.moving().is_some());
-    let mut bodies: Vec<BodyRef> = loaded.copied().into_iter().collect();
+    // The first body is that of the joint of y, where the load of the coupling acts.
+    let mut bodies: Vec<BodyRef> = measures[1].0.clone();
+    bodies.dedup();
     let mut slots = Vec::new();
     for (own, drive) in &measures {
         let spec = drive.spec();
@@ -82,11 +85,6 @@ where
         slots.push([own[0], own[1]]);
     }
     let [(_, x), (_, y)] = measures;
-    let meets = [0, 1].map(|side| match slots[side] {
-        [0, _] => 1.0,
-        [_, 0] => -1.0,
-        _ => 0.0,
-    });
     let facts = facts(
         [x.spec(), y.spec()],
         [slots[0], slots[1]],
@@ -100,7 +98,6 @@ where
     let coupling = Coupling {
         sides: [x, y],
         law,
-        meets,
         facts,
     };
     Ok((bodies, Box::new(coupling)))

@@ -3,6 +3,7 @@
 use joints::spec::{ConstraintSpec, Entry};
 
 use crate::body::BodyRef;
+use crate::coupling;
 use crate::rows::RowRanges;
 use crate::space::SpaceKind;
 
@@ -53,13 +54,12 @@ impl ConstraintGroup {
             .collect()
     }
 
-    /// The named component that has to be reported in addition to force and torque, because these
-    /// may not contain it: they act on the first body, and a definition between more than two
-    /// bodies, as a coupling of two joints, may load the others alone.
+    /// The named component that is reported in addition to force and torque: the load of a
+    /// coupling. It acts on up to four bodies, and force and torque are those on one of them.
     #[must_use]
-    pub fn hidden_component(&self) -> Option<&'static str> {
+    pub fn own_load(&self) -> Option<&'static str> {
         let named = self.spec.component;
-        named.filter(|_| self.spec.common.slots.len() > 2)
+        named.filter(|_| self.spec.common.scene_type == coupling::TYPE)
     }
 
     /// The names of its components that are reported: those that are not identically zero, and the
@@ -67,7 +67,7 @@ impl ConstraintGroup {
     pub fn component_names(&self) -> impl Iterator<Item = &'static str> + use<> {
         let names = self.space.components();
         let own = self.components().into_iter().map(|c| names[c]);
-        own.chain(self.hidden_component())
+        own.chain(self.own_load())
     }
 
     /// Entries (component, row) of the map from multipliers to the reaction that are not

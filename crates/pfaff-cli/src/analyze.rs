@@ -12,6 +12,7 @@ mod rank;
 mod text;
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use pfaff::model::System;
 use pfaff::report::AnalysisDocument;
 use pfaff::{ConfigurationAnalysis, Overrides, Study};
 
@@ -88,7 +89,9 @@ fn of_study(
         let warned = study.add_warnings(&mut document);
         warned.map_err(|e| source.failure(e))?;
     }
-    document.answers.along = along.transpose()?;
+    if let Some(found) = along.transpose()? {
+        found.add_to(&mut document, configuration.mechanism.layout());
+    }
     answer(arguments, &configuration, &document, console)?;
     if document
         .answers

@@ -1,7 +1,9 @@
 //! `pfaff check`: reads and assembles a scene and reports all errors.
 
 use pfaff::model::{Layout, Mechanism, System};
-use pfaff::report::documents::{CheckDocument, DataDocument, FreedomsDocument};
+use pfaff::report::documents::{
+    CheckDocument, DataDocument, FreedomsDocument, SensitivityDocument,
+};
 use pfaff::scene::{Diagnostic, Scene};
 use pfaff::{ConfigurationAnalysis, Overrides, StudyError};
 
@@ -68,6 +70,20 @@ impl Freedoms {
     }
 }
 
+/// Sentences on fragile reactions, then on fragile sums.
+fn fragile(start: &ConfigurationAnalysis<'_>) -> Result<Vec<String>, StudyError> {
+    let layout = start.mechanism.layout();
+    let reactions = start.sensitivities()?;
+    let mut sentences = reactions.sentences(layout);
+    for (name, found) in start.group_sensitivities(&reactions)? {
+        // Separate reactions have their own sentences.
+        if !found.numbers.is_empty() {
+            sentences.extend(SensitivityDocument::of_group(&found, &name, layout).hangs_on);
+        }
+    }
+    Ok(sentences)
+}
+
 impl Checked {
     /// Reads and assembles the scene. A scene that only `analyze` can process is not an error here.
     pub(crate) fn of(source: &Source, resources: Resources) -> Result<Self, Failure> {
@@ -89,8 +105,7 @@ impl Checked {
                 let failure = |e| source.failure(e);
                 let start = study.analyse(0.0, None).map_err(failure)?;
                 let freedoms = Freedoms::of(&start).map_err(failure)?;
-                let hanging = start.sensitivities().map_err(failure)?;
-                let hanging = hanging.sentences(start.mechanism.layout());
+                let hanging = fragile(&start).map_err(failure)?;
                 let p = &study.prepared;
                 let mut checked = new(&study.scene, &p.mechanism, &p.assembly.correction);
                 let more = hanging.len().saturating_sub(FRAGILE_TOLD);

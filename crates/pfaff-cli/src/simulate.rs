@@ -184,8 +184,9 @@ fn describe(name: &str, d: &RunDocument, t_end: f64) -> String {
     if let Some(warning) = d.data.warning(d.mobility) {
         text.push_str(&wrapped("", &format!("warning: {warning}")));
     }
-    let reactions = d.reactions.0.iter();
-    let fragile = reactions.filter(|(_, r)| r.data.fragile);
+    let reactions = d.reactions.0.iter().map(|(name, r)| (name, &r.data));
+    let groups = d.groups.0.iter().map(|(name, g)| (name, &g.data));
+    let fragile = reactions.chain(groups).filter(|(_, data)| data.fragile);
     let fragile: Vec<&str> = fragile.map(|(name, _)| name.as_str()).collect();
     if !fragile.is_empty() {
         text.push_str(&format!(
@@ -274,13 +275,7 @@ fn partly(name: &str, reaction: &RunReactionDocument) -> Option<String> {
     let components = reaction.components.0.iter();
     let some = components.filter(|(_, c)| !c.of_run.determined.is_empty());
     let some: Vec<String> = some
-        .map(|(component, c)| {
-            let on = c.of_run.determined.iter();
-            let on: Vec<String> = on
-                .map(|[from, to]| format!("{} … {} s", rounded(*from), rounded(*to)))
-                .collect();
-            format!("{name}.{component} on {}", on.join(", "))
-        })
+        .map(|(component, c)| format!("{name}.{component} on {}", c.of_run.on_intervals()))
         .collect();
     (!some.is_empty()).then(|| some.join(", "))
 }

@@ -8,9 +8,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use dynamics::plan::{Reactions, Rows};
 use dynamics::{MotionError, MotionOptions, Plan, Stop, Wanted};
 use model::start::scene_size;
-use model::{ColumnKind, Mechanism, System};
+use model::{ColumnKind, Layout, Mechanism, System};
+use report::AnalysisDocument;
 use report::documents::AlongDocument;
-use solvability::{Along, AlongError, Extent, PassageKind, State, along_motion_of_parts};
+use solvability::{
+    Along, AlongError, Extent, PassageKind, State, Stretches, along_motion_of_parts,
+};
 
 use crate::error::StudyError;
 use crate::study::Study;
@@ -44,7 +47,7 @@ const INTERVALS_MAX: usize = 4_000;
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct VerdictsAlongMotion {
-    /// The generic verdict, and the times at which another one holds.
+    /// The verdicts by stretches of time, and the singular configurations.
     pub along: Along,
     /// Last time that was analysed (s).
     pub to: f64,
@@ -62,14 +65,24 @@ pub struct VerdictsAlongMotion {
 }
 
 impl VerdictsAlongMotion {
-    /// The verdicts as plain data: `along` in the output of `pfaff analyze --along --json`.
+    /// The verdicts as plain data, with the names of this layout: `along` in the output of `pfaff analyze --along --json`.
     #[must_use]
-    pub fn document(&self) -> AlongDocument {
-        let stopped = self.stopped.as_ref().map(ToString::to_string);
+    pub fn document(&self, layout: &Layout) -> AlongDocument {
         let extent = (self.samples, self.reach);
-        let mut document = AlongDocument::new(&self.along, self.to, extent, stopped);
+        let mut document = AlongDocument::new(&self.along, layout, self.to, extent);
+        document.stopped = self.stopped.as_ref().map(ToString::to_string);
         document.continued_to = self.continued_to;
         document
+    }
+
+    /// Adds them to the document of a configuration of the same scene. The generic verdicts are
+    /// then those of the stretches of the motion that contain its time.
+    pub fn add_to(&self, document: &mut AnalysisDocument, layout: &Layout) {
+        let generic = self.along.verdicts.generic_at(document.configuration.time);
+        if let Some(verdicts) = generic {
+            document.add_generic_verdicts(&verdicts);
+        }
+        document.answers.along = Some(self.document(layout));
     }
 }
 
@@ -99,8 +112,9 @@ impl Study {
     /// let study = Study::read("pendulum.toml", scene, &Registry::standard(), &Overrides::default())?;
     /// let along_motion = study.verdicts_along_motion(Some(1.0), |_| {})?;
     /// assert_eq!((along_motion.to, along_motion.stopped.is_none()), (1.0, true));
-    /// assert_eq!(along_motion.along.generic.decision.redundancy, 0);
-    /// assert!(along_motion.along.stretches.is_empty() && along_motion.along.passages.is_empty());
+    /// assert_eq!(along_motion.along.generic.redundancy, 0);
+    /// assert!(along_motion.along.verdicts.reactions[0].whole.of_run().is_unique());
+    /// assert!(along_motion.along.passages.is_empty());
     /// # Ok::<(), pfaff::StudyError>(())
     /// ```
     ///
@@ -215,7 +229,12 @@ impl Study {
             run.state(t, extent)
         };
         let mechanism = &self.prepared.mechanism;
-        Ok(along_motion_of_parts(mechanism, motion, &times)?)
+        Ok(along_motion_of_parts(
+            mechanism,
+            motion,
+            &times,
+            run.verdicts.as_ref(),
+        )?)
     }
 
     fn judge(
@@ -258,7 +277,8 @@ impl Study {
                 Rows::Every
             },
             accelerations: !many,
-            reactions: Reactions::None,
+            // With them come the verdicts of the run; their numbers are not computed.
+            reactions: Reactions::All,
             ..Wanted::default()
         };
         let options = MotionOptions {
@@ -293,9 +313,9 @@ impl Study {
         if asked.load(Ordering::Relaxed) {
             return Err(StudyError::Interrupted);
         }
-        let (reached, stopped) = match outcome {
-            Ok(summary) => (summary.t, None),
-            Err(failure) if failure.summary.t > 0.0 => (failure.summary.t, Some(failure.error)),
+        let (summary, stopped) = match outcome {
+            Ok(summary) => (summary, None),
+            Err(failure) if failure.summary.t > 0.0 => (failure.summary, Some(failure.error)),
             Err(failure) => return Err(failure.error.into()),
         };
         if !wanted.accelerations {
@@ -304,7 +324,8 @@ impl Study {
         Ok(Record {
             rows,
             between,
-            reached,
+            reached: summary.t,
+            verdicts: summary.verdicts,
             stopped,
         })
     }
@@ -354,6 +375,8 @@ struct Record {
     between: usize,
     /// The last accepted time (s), at or after the last row.
     reached: f64,
+    /// The verdicts of the run; `None` without joints and drives.
+    verdicts: Option<Stretches>,
     stopped: Option<MotionError>,
 }
 

@@ -1,6 +1,7 @@
 //! Compares reactions that are not unique along a run for several choices: that of the run or the
-//! requested ones, the least norm, and sets of rows without reaction. Each set of joints that share cycles is treated
-//! separately, so the work grows with the redundant sets and not with the mechanism.
+//! requested ones, the least norm, and sets of rows without reaction. Each set of joints that share
+//! cycles is treated separately, so the work grows with the redundant sets and not with the
+//! mechanism.
 //!
 //! All solutions at an instant are `λ + Z·y`. λ is that of the run; Z belongs to the configuration
 //! at that instant, so unique components are recognised at every instant and not at the start only.

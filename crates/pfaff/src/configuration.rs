@@ -14,11 +14,11 @@ use rank::Limits;
 use scene::Scene;
 use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Continuation, Contradiction, Distribution,
-    EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GroupVerdict, MomentVerdict,
-    NamedChoice, NoFiniteReaction, Numbers, Proposals, Questions, ReactionNumber, ReactionValues,
-    ReactionVerdict, Rows, Sensitivities, Sensitivity, Solution, State, UnitCheck, analyse_decided,
-    analyse_dropping, analyse_with_progress, generic, is_locked, no_finite_reactions, second_order,
-    solution,
+    EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GenericVerdict, GroupVerdict,
+    MomentVerdict, NamedChoice, NoFiniteReaction, Numbers, Proposals, Questions, ReactionNumber,
+    ReactionValues, ReactionVerdict, Rows, Sensitivities, Sensitivity, Solution, State, UnitCheck,
+    analyse_decided, analyse_dropping, analyse_with_progress, generic, generic_with_verdicts,
+    is_locked, no_finite_reactions, second_order, solution,
 };
 
 use crate::error::StudyError;
@@ -284,6 +284,13 @@ impl<'a> ConfigurationAnalysis<'a> {
     #[must_use]
     pub fn generic(&self) -> Option<Generic> {
         generic(self.mechanism, self.analysis.time, &self.state.q)
+    }
+
+    /// The same, with the verdicts on all joints and drives there: the worst at the configurations
+    /// with the smallest redundancy, or `None` if they are not known.
+    #[must_use]
+    pub fn generic_with_verdicts(&self) -> Option<(Generic, Option<Vec<GenericVerdict>>)> {
+        generic_with_verdicts(self.mechanism, self.analysis.time, &self.state.q)
     }
 
     /// How the motion continues at a singular configuration, at which the redundancy is larger than

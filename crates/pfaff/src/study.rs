@@ -21,13 +21,13 @@ use report::documents::{
     DataDocument, Gap, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument, choice_file,
 };
 use report::{
-    AnalysisDocument, Origin, OutputDirectory, Peak, PeakRecorder, ReactionColumn, Run,
+    AnalysisDocument, Origin, OutputDirectory, Peak, PeakRecorder, Quantity, ReactionColumn, Run,
     RunDocument, Selection, TableError, TrajectoryTable, columns_of_reactions, write_json,
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{
-    Choice, Chosen, Contradiction, Freedoms, Group, GroupNumbers, NamedChoice, ReactionVerdict,
-    Sensitivities, Sensitivity, State, Stretches, contradicting_drives_along,
+    Choice, Chosen, Contradiction, Freedoms, Group, GroupNumbers, GroupSensitivities, NamedChoice,
+    ReactionVerdict, Sensitivities, Sensitivity, State, Stretches, contradicting_drives_along,
 };
 
 use crate::assembled::{AssembledScene, refused};
@@ -716,10 +716,12 @@ impl Study {
     fn begun(&self) -> Result<Begun<'_>, StudyError> {
         let start = self.analyse(0.0, None)?;
         let choices = self.choices.iter().map(|choice| start.named(choice));
+        let sensitivities = start.sensitivities()?;
         Ok(Begun {
             choices: choices.collect::<Result<_, _>>()?,
             freedoms: start.freedoms()?,
-            sensitivities: start.sensitivities()?,
+            group_sensitivities: start.group_sensitivities(&sensitivities)?,
+            sensitivities,
             groups: self.groups()?,
             start,
         })
@@ -929,6 +931,8 @@ struct Begun<'s> {
     /// The groups of the scene, with their names.
     groups: Vec<(String, Group)>,
     choices: Vec<NamedChoice>,
+    /// How strongly their numbers depend on the data, with the same names.
+    group_sensitivities: Vec<(String, GroupSensitivities)>,
 }
 
 /// What was written of a run.
@@ -957,14 +961,17 @@ impl Begun<'_> {
     /// The columns of reactions.
     fn columns(&self, selection: &Selection) -> Result<Vec<ReactionColumn>, TableError> {
         let mechanism = self.start.mechanism;
-        columns_of_reactions(mechanism, selection, &self.groups, |id, name| {
-            self.is_fragile(id, name)
+        columns_of_reactions(mechanism, selection, &self.groups, |quantity| {
+            self.is_fragile(quantity)
         })
     }
 
-    /// Whether a component is unique at the start, but determined by the last digits of the data.
-    fn is_fragile(&self, id: ConstraintId, component: &str) -> bool {
-        let own = self.sensitivities.component(id, component);
+    /// Whether a number is unique at the start, but determined by the last digits of the data.
+    fn is_fragile(&self, quantity: &Quantity) -> bool {
+        let own = match quantity {
+            Quantity::Component(id, name) => self.sensitivities.component(*id, name),
+            Quantity::Group(k, name) => self.group_sensitivities[*k].1.number(name),
+        };
         own.is_some_and(Sensitivity::is_fragile)
     }
 
@@ -978,7 +985,7 @@ impl Begun<'_> {
             freedoms: &self.freedoms,
             verdicts: verdicts.map(|stretches| RunVerdicts {
                 stretches,
-                groups: &self.groups,
+                groups: &self.group_sensitivities,
                 columns: written.columns,
                 peaks: written.peaks,
             }),

@@ -318,7 +318,10 @@ impl Subject {
                 let options = options(&self.base, curve, tolerance);
                 let run = look(&self.study, &options, &self.times, plan.budget, interrupted);
                 match run.ending {
-                    Ending::Reached => return Some((method, tolerance, run.observations)),
+                    Ending::Reached => {
+                        let verdicts = run.summary.verdicts?;
+                        return Some((method, tolerance, run.observations, verdicts));
+                    }
                     Ending::Failed(_) => {}
                     Ending::GivenUp(_) | Ending::Interrupted => return None,
                 }
@@ -329,7 +332,7 @@ impl Subject {
         let mechanism = &self.study.prepared.mechanism;
         let mut best: Option<Pair> = None;
         let unique = match runs.first() {
-            Some(first) if runs.len() > 1 => unique_reactions(&first.2, mechanism)?,
+            Some(first) if runs.len() > 1 => unique_reactions(&first.3, mechanism),
             _ => return Ok(None),
         };
         for (k, a) in runs.iter().enumerate() {

@@ -6,6 +6,7 @@ mod analysis;
 mod answers;
 mod equilibrium;
 mod freedoms;
+mod impulses;
 mod linearise;
 mod misfits;
 mod motion;
@@ -24,14 +25,13 @@ use serde::ser::{SerializeMap, Serializer};
 use solvability::{Judgement, Verdict};
 
 pub use analysis::{
-    AlongDocument, AnalysisDocument, AnswersDocument, ComponentDocument, ConfigurationDocument,
-    ContinuationDocument, DataDocument, DependencyDocument, DifferenceDocument,
-    DistributionDocument, EliminationsDocument, EvidenceDocument, FrameDocument,
-    FreeDirectionDocument, GenericDocument, GenericVerdictsDocument, GroupDocument,
-    MakeUniqueDocument, MixingDocument, MomentAboutDocument, NamedVerdictDocument,
-    NearlyRedundantDocument, NoteDocument, PartsDocument, PassageDocument, PointDocument,
-    RanksDocument, ReactionDocument, ReasonsDocument, RowDocument, StretchDocument, ValueDocument,
-    ValuesDocument, WayDocument,
+    AlongDocument, AlongReactionDocument, AnalysisDocument, AnswersDocument, ComponentDocument,
+    ConfigurationDocument, ContinuationDocument, DataDocument, DependencyDocument,
+    DifferenceDocument, DistributionDocument, EliminationsDocument, EvidenceDocument,
+    FrameDocument, FreeDirectionDocument, GenericDocument, GenericRankDocument, GroupDocument,
+    MakeUniqueDocument, MixingDocument, MomentAboutDocument, NearlyRedundantDocument, NoteDocument,
+    PartsDocument, PassageDocument, PointDocument, RanksDocument, ReactionDocument,
+    ReasonsDocument, RowDocument, StretchDocument, ValueDocument, ValuesDocument, WayDocument,
 };
 pub use answers::{
     CheckDocument, CodeDocument, CodesDocument, DiffBody, DiffChange, DiffDocument, DiffMotion,
@@ -40,6 +40,7 @@ pub use answers::{
 };
 pub use equilibrium::{EquilibriumDocument, ReactionAtRestDocument, RestingBodyDocument};
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
+pub use impulses::ImpulseDocument;
 pub use linearise::{
     InputDocument, LinearisationDocument, ModeDocument, SecondOrderDocument, StateDocument,
 };

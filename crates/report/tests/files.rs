@@ -196,8 +196,10 @@ fn one_process_at_a_time_has_a_directory() {
 #[test]
 fn a_process_that_is_ended_leaves_whole_lines_and_a_summary() {
     let path = place("ended");
+    let empty = OutputDirectory::create(path.join("empty")).expect("makes it");
+    assert!(!empty.abandon(), "nothing has begun");
+    assert!(!path.join("empty").exists());
     let directory = OutputDirectory::create(&path).expect("makes it");
-    assert!(!directory.abandon(), "nothing has begun");
     directory.write("b.csv", b"t,b.x\n0,0\n").expect("writes");
     let earlier = OutputDirectory::create(&path).expect("makes it");
     let mut table = earlier.file("a.csv").expect("begins");

@@ -159,7 +159,7 @@ fn tables_have_the_columns_of_space() {
         assert!((a - b).abs() < 1e-14, "{k}: {a} {b}");
     }
 
-    let columns = columns_of_reactions(&built, &Selection::All, &[], |_, _| false);
+    let columns = columns_of_reactions(&built, &Selection::All, &[], |_| false);
     let columns = columns.expect("all of them");
     let mut table = ReactionTable::new("choice.csv", Vec::new(), &built, columns).expect("writes");
     let reaction = Reaction::new(SpaceKind::Space3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], None);

@@ -1,15 +1,16 @@
-//! Verdicts along a motion: the generic verdict, which holds almost everywhere, and the times at
-//! which the verdict differs from it.
+//! Verdicts along a motion: by stretches of time, with the instants at which others hold, and the
+//! singular configurations.
 //!
 //! Rank and verdicts are constant on each component of the configuration set except on a nowhere
 //! dense part of it. Between break times, if the functions of time of the drives are analytic, they
 //! are therefore constant except at isolated instants, unless the whole stretch of the motion lies
-//! in the exceptional part. So a motion has one generic verdict, stretches between break times on
-//! which another verdict holds, and passages: single instants with a different verdict.
+//! in the exceptional part. So a motion has verdicts by stretches ([`Stretches`]), special instants
+//! with other verdicts, and passages: singular configurations, at which the rank drops for an
+//! instant.
 //!
 //! States are moved onto the constraints before anything is decided. An instant between two sample
-//! times is found if the smallest singular value decreases towards it at the sample times, or if
-//! the kept rows change their orientation.
+//! times is found if the smallest singular value, or the margin of a component, decreases towards
+//! it at the sample times, or if the kept rows change their orientation.
 
 mod border;
 mod compare;
@@ -24,14 +25,15 @@ mod words;
 
 use std::sync::Mutex;
 
-use model::Mechanism;
+use model::{Mechanism, System};
 
 use crate::parts::{Extent, Partition};
 use crate::state::{self, State};
-use path::Path;
+use crate::stretches::Stretches;
+use path::{Detail, Path};
 use stretches::ends_of_pieces;
 
-pub use data::{Along, AlongError, Difference, Part, Passage, PassageKind, Stretch};
+pub use data::{Along, AlongError, Difference, GenericRank, Passage, PassageKind, Stretch};
 
 /// Computes the verdicts along a motion of a mechanism. `motion` returns the state at a given time;
 /// it is called only for times between the first and the last sample time. It may be a closed form
@@ -57,7 +59,8 @@ pub use data::{Along, AlongError, Difference, Part, Passage, PassageKind, Stretc
 ///     v: vec![2.0 * t.cos(), 2.0 * t.sin(), 1.0],
 /// };
 /// let along = along_motion(&mechanism, turning, &[0.0, 0.5, 1.0])?;
-/// assert_eq!(along.generic.decision.rank, 2);
+/// assert_eq!(along.generic.rank, 2);
+/// assert!(along.verdicts.reactions[0].whole.of_run().is_unique());
 /// assert!(along.stretches.is_empty() && along.passages.is_empty());
 /// # Ok::<(), solvability::AlongError>(())
 /// ```
@@ -88,11 +91,13 @@ pub fn along_motion(
             }
         }
     };
-    along_motion_of_parts(mechanism, of_part, times)
+    along_motion_of_parts(mechanism, of_part, times, None)
 }
 
 /// Like [`along_motion`], for a motion that can return the coordinates and velocities of a single
-/// part. For large mechanisms it is called often, each time for a few parts only.
+/// part. For large mechanisms it is called often, each time for a few parts only. The verdicts are
+/// those of the run that computed the motion, if they are given, with the instants that are found.
+/// Otherwise those at the sample times decide.
 ///
 /// # Errors
 /// As [`along_motion`].
@@ -100,13 +105,19 @@ pub fn along_motion_of_parts(
     mechanism: &Mechanism,
     motion: impl Fn(f64, &Extent) -> State + Sync,
     times: &[f64],
+    of_run: Option<&Stretches>,
 ) -> Result<Along, AlongError> {
-    let times = with_break_times(mechanism, times)?;
+    let times = with_break_times(mechanism, times, of_run)?;
     let first = motion(times[0], &Extent::Whole);
     state::check(mechanism, times[0], &first.q, &first.v)?;
     match Partition::of(mechanism, times[0], &first.q) {
-        Partition::One => judged_as_one(mechanism, |t| motion(t, &Extent::Whole), &times),
-        several => parts::judged_by_parts(mechanism, motion, &times, &several, &first),
+        Partition::One => judged_as_one(
+            mechanism,
+            |t| motion(t, &Extent::Whole),
+            &times,
+            of_run.cloned(),
+        ),
+        several => parts::judged_by_parts(mechanism, motion, &times, &several, of_run),
     }
 }
 
@@ -115,23 +126,44 @@ fn judged_as_one(
     mechanism: &Mechanism,
     motion: impl FnMut(f64) -> State,
     times: &[f64],
+    of_run: Option<Stretches>,
 ) -> Result<Along, AlongError> {
-    let mut path = Path::new(mechanism, motion, times)?;
-    let (generic, stretches) = stretches::stretches(&path);
-    let mut passages = passages::passages(&mut path, &generic, &stretches)?;
-    passages.extend(instants::instants(
-        &mut path, &generic, &stretches, &passages,
-    )?);
+    let mut path = Path::new(mechanism, motion, times, Detail::Verdicts)?;
+    let mut verdicts = of_run.unwrap_or_else(|| stretches::of_samples(&path));
+    let stretches = stretches::of_other_rank(&path);
+    let redundancy = mechanism.layout().rows() - path.rank;
+    let mut passages = Vec::new();
+    let mut special = Vec::new();
+    for found in passages::passages(&mut path, &stretches)? {
+        let (mut passage, time) = (found.passage, found.point.t);
+        let judged = path.judged(&found.point, found.decision)?;
+        passage.differences = compare::differences(mechanism, &verdicts, (time, &judged));
+        passage.text = words::passage(&passage, redundancy);
+        passages.push(passage);
+        special.push((time, judged));
+    }
     passages.sort_by(|a, b| a.time.total_cmp(&b.time));
+    special.extend(instants::instants(
+        &mut path, &verdicts, &stretches, &passages,
+    )?);
+    for (time, judged) in &special {
+        compare::look(&mut verdicts, (*time, judged));
+    }
+    verdicts.sum_up(&[]);
     Ok(Along {
-        generic: path.complete(generic.time)?,
+        verdicts,
+        generic: GenericRank {
+            time: path.typical,
+            rank: path.rank,
+            redundancy,
+        },
         stretches,
         passages,
     })
 }
 
-/// Finds only the singular and nearly singular configurations of a motion: part of what
-/// [`along_motion`] finds, in a fraction of its time.
+/// Finds only the singular and nearly singular configurations of a motion, without the verdicts
+/// there: part of what [`along_motion`] finds, in a fraction of its time.
 ///
 /// # Errors
 /// As [`along_motion`].
@@ -140,15 +172,25 @@ pub fn singular_passages(
     motion: impl FnMut(f64) -> State,
     times: &[f64],
 ) -> Result<Vec<Passage>, AlongError> {
-    let times = with_break_times(mechanism, times)?;
-    let mut path = Path::new(mechanism, motion, &times)?;
-    let (generic, stretches) = stretches::stretches(&path);
-    passages::passages(&mut path, &generic, &stretches)
+    let times = with_break_times(mechanism, times, None)?;
+    let mut path = Path::new(mechanism, motion, &times, Detail::Rank)?;
+    let stretches = stretches::of_other_rank(&path);
+    let found = passages::passages(&mut path, &stretches)?.into_iter();
+    let redundancy = mechanism.layout().rows() - path.rank;
+    let told = found.map(|found| Passage {
+        text: words::passage(&found.passage, redundancy),
+        ..found.passage
+    });
+    Ok(told.collect())
 }
 
-/// Returns the sample times, the break times between them, and one time within each piece between
-/// break times.
-fn with_break_times(mechanism: &Mechanism, times: &[f64]) -> Result<Vec<f64>, AlongError> {
+/// Returns the sample times, the break times between them, one time within each piece between break
+/// times, and the special instants of the run that computed the motion.
+fn with_break_times(
+    mechanism: &Mechanism,
+    times: &[f64],
+    of_run: Option<&Stretches>,
+) -> Result<Vec<f64>, AlongError> {
     let wrong = |index: usize| {
         let grows = index == 0 || times[index] > times[index - 1];
         !(times[index].is_finite() && grows)
@@ -170,6 +212,9 @@ fn with_break_times(mechanism: &Mechanism, times: &[f64]) -> Result<Vec<f64>, Al
             all.push(0.5 * (piece[0] + piece[1]));
         }
     }
+    let tracks = of_run.into_iter().flat_map(Stretches::components);
+    let special = tracks.flat_map(|track| track.special().iter().map(|s| s.time));
+    all.extend(special.filter(|t| first <= *t && *t <= last));
     all.sort_by(f64::total_cmp);
     all.dedup();
     Ok(all)

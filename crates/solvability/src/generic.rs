@@ -9,15 +9,19 @@
 
 mod leaving;
 
+use crate::components::{all_components, judge_all};
 use crate::limits::{
     GENERIC_HALVINGS, GENERIC_HOLDS, GENERIC_STEP, GENERIC_STEPS, GENERIC_STRAYED, ONE_PART,
     POINTS, POINTS_APART, WALKS,
 };
+use crate::matrices::Solvability;
 use crate::pose::{dimensionless, uncertainty, velocity_units};
+use crate::stretches::worst;
+use crate::verdict::Verdict;
 use leaving::Leaving;
 use linalg::{Matrix, PivotedQr};
 use model::start::{Metric, nearest_configuration, scene_size};
-use model::{DataBlock, Mechanism, SHARED, System};
+use model::{ConstraintId, DataBlock, Mechanism, SHARED, System};
 use rank::RankDecision;
 
 use crate::certificate::{Rows, holding_together};
@@ -45,45 +49,159 @@ pub struct OtherConfiguration {
     pub redundancy: usize,
 }
 
+/// The verdicts on a joint or drive that hold at nearly all configurations.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct GenericVerdict {
+    /// The joint or drive.
+    pub id: ConstraintId,
+    /// The verdict on all its components together.
+    pub whole: Verdict,
+    /// The verdicts on its components that are not identically zero, and on the named component of
+    /// its definition, with their names.
+    pub components: Vec<(&'static str, Verdict)>,
+}
+
+impl GenericVerdict {
+    /// The verdict on a component, by its name; `None` for one that is zero under any load.
+    #[must_use]
+    pub fn component(&self, name: &str) -> Option<&Verdict> {
+        let mut own = self.components.iter();
+        own.find(|(known, _)| *known == name).map(|(_, v)| v)
+    }
+}
+
 /// Ranks at configurations other than (t, q), which must satisfy the constraints. Returns `None` if
 /// no configuration was found at which the rank is decided (a structure that cannot move has no
 /// others), if there are more than [`ONE_PART`] rows, or if t and q are not a configuration of this
 /// mechanism.
 #[must_use]
 pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
-    crate::state::check_configuration(mechanism, t, q).ok()?;
-    if mechanism.layout().rows() > ONE_PART {
-        return None;
-    }
-    let compared = compared_rows(mechanism, t, q)?;
-    let size = scene_size(mechanism, q);
-    let walker = Walker {
-        mechanism,
-        rows: Lasting::of(mechanism, t, q),
-        units: velocity_units(mechanism, size),
-        size,
-        leaving: Leaving::new(mechanism, t, q),
-        moves_time: has_lasting_function(mechanism),
-    };
-    let mut points: Vec<OtherConfiguration> = Vec::new();
-    let mut visited = vec![(t, q.to_vec())];
-    for walk in 0..WALKS {
-        let from = &visited[visited.len() - 1];
-        let Some(there) = walker.walk_from(from, walk) else {
-            continue;
+    Some(Comparison::of(mechanism, t, q)?.found)
+}
+
+/// Like [`generic`], with the verdicts on all joints and drives at these configurations: of those
+/// with the smallest redundancy that was found, the worst. They are `None` if they are not known
+/// there.
+#[must_use]
+pub fn generic_with_verdicts(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+) -> Option<(Generic, Option<Vec<GenericVerdict>>)> {
+    let comparison = Comparison::of(mechanism, t, q)?;
+    let verdicts = comparison.verdicts(mechanism);
+    Some((comparison.found, verdicts))
+}
+
+/// Other configurations, with their decisions.
+struct Comparison {
+    found: Generic,
+    /// Of the rows that are compared, one for each configuration.
+    decided: Vec<DecidedRows>,
+    /// Rows whose rank is compared, ascending.
+    compared: Vec<usize>,
+}
+
+/// The decision on rows of C, and C without dimensions as it was decided.
+struct DecidedRows {
+    decision: RankDecision,
+    c: Matrix,
+}
+
+impl Comparison {
+    fn of(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Self> {
+        crate::state::check_configuration(mechanism, t, q).ok()?;
+        if mechanism.layout().rows() > ONE_PART {
+            return None;
+        }
+        let compared = compared_rows(mechanism, t, q)?;
+        let size = scene_size(mechanism, q);
+        let walker = Walker {
+            mechanism,
+            rows: Lasting::of(mechanism, t, q),
+            units: velocity_units(mechanism, size),
+            size,
+            leaving: Leaving::new(mechanism, t, q),
+            moves_time: has_lasting_function(mechanism),
         };
-        let is_new =
-            |(t, q): &(f64, Vec<f64>)| there.0 != *t || walker.apart(&there.1, q) >= POINTS_APART;
-        if visited.iter().all(is_new) {
-            points.extend(walker.elsewhere(&there, &compared));
+        let mut points: Vec<OtherConfiguration> = Vec::new();
+        let mut decided = Vec::new();
+        let mut visited = vec![(t, q.to_vec())];
+        for walk in 0..WALKS {
+            let from = &visited[visited.len() - 1];
+            let Some(there) = walker.walk_from(from, walk) else {
+                continue;
+            };
+            let is_new = |(t, q): &(f64, Vec<f64>)| {
+                there.0 != *t || walker.apart(&there.1, q) >= POINTS_APART
+            };
+            if visited.iter().all(is_new)
+                && let Some((point, own)) = walker.elsewhere(&there, &compared)
+            {
+                points.push(point);
+                decided.push(own);
+            }
+            visited.push(there);
+            if points.len() == POINTS {
+                break;
+            }
         }
-        visited.push(there);
-        if points.len() == POINTS {
-            break;
-        }
+        let redundancy = points.iter().map(|p| p.redundancy).min()?;
+        Some(Self {
+            found: Generic { redundancy, points },
+            decided,
+            compared,
+        })
     }
-    let redundancy = points.iter().map(|p| p.redundancy).min()?;
-    Some(Generic { redundancy, points })
+
+    /// The worst verdicts at the configurations with the smallest redundancy.
+    fn verdicts(&self, mechanism: &Mechanism) -> Option<Vec<GenericVerdict>> {
+        let points = self.found.points.iter().zip(&self.decided);
+        let typical = points.filter(|(p, _)| p.redundancy == self.found.redundancy);
+        let each: Vec<Vec<Verdict>> = typical
+            .filter_map(|(point, decided)| self.verdicts_at(mechanism, point, decided))
+            .collect();
+        if each.is_empty() {
+            return None;
+        }
+        let worst_of = |k: usize| worst(each.iter().map(|verdicts| &verdicts[k])).clone();
+        let mut components = all_components(mechanism.layout()).enumerate().peekable();
+        let of = |id: ConstraintId| {
+            let mut own = Vec::new();
+            while let Some((k, (_, name))) = components.next_if(|(_, (other, _))| *other == id) {
+                own.push((name, worst_of(k)));
+            }
+            GenericVerdict {
+                id,
+                whole: worst(own.iter().map(|(_, v)| v)).clone(),
+                components: own,
+            }
+        };
+        Some(mechanism.layout().constraint_ids().map(of).collect())
+    }
+
+    /// The verdicts on all components at one of them. Rows that were not compared are redundant
+    /// there within a stated tolerance: where the decision on all rows does not find them so, it is
+    /// one of another rank, and the verdicts are not known.
+    fn verdicts_at(
+        &self,
+        mechanism: &Mechanism,
+        point: &OtherConfiguration,
+        decided: &DecidedRows,
+    ) -> Option<Vec<Verdict>> {
+        let s = crate::pose::evaluated(mechanism, point.time, &point.q);
+        let solvability = if self.compared.len() == mechanism.layout().rows() {
+            Solvability::from_decision(&decided.c, decided.decision.clone())
+        } else {
+            let rows = Rows::in_double(mechanism, &s, &point.q);
+            let all = rows.of_rank(point.rank).ok()??;
+            let is_same = all.is_decided() && all.rank == point.rank;
+            is_same.then(|| Solvability::from_decision(&rows.matrix(), all))?
+        };
+        let judged = judge_all(mechanism, &s, solvability.basis()).ok()?;
+        Some(judged.into_iter().map(|j| j.verdict).collect())
+    }
 }
 
 /// Whether the degree of redundancy is the same at other configurations. Returns `None` if
@@ -282,7 +400,7 @@ impl Walker<'_> {
         &self,
         (t, q): &(f64, Vec<f64>),
         compared: &[usize],
-    ) -> Option<OtherConfiguration> {
+    ) -> Option<(OtherConfiguration, DecidedRows)> {
         let mechanism = self.mechanism;
         let mut s = crate::pose::evaluated(mechanism, *t, q);
         // Drives were left out of the walk, and have other values at this configuration. A row that
@@ -292,21 +410,24 @@ impl Walker<'_> {
         for rows in drives.map(|g| g.rows.holonomic.clone()) {
             s.phi[rows].fill(0.0);
         }
-        let decision = if self.leaving.excludes() {
+        let (decision, c) = if self.leaving.excludes() {
             // Rows that block a rotation at second order hold it to the root of rounding only.
             let known = f64::EPSILON.sqrt();
-            let c = dimensionless(mechanism, &s, scene_size(mechanism, q));
-            rank::decide(&c.select_rows(compared), known).ok()?
+            let c = dimensionless(mechanism, &s, scene_size(mechanism, q)).select_rows(compared);
+            (rank::decide(&c, known).ok()?, c)
         } else {
             let rows = Rows::in_double(mechanism, &s, q).select(compared);
-            rows.decide().ok()?
+            (rows.decide().ok()?, rows.matrix())
         };
-        decision.is_decided().then(|| OtherConfiguration {
+        let point = OtherConfiguration {
             time: *t,
             q: q.clone(),
             rank: decision.rank,
             redundancy: mechanism.layout().rows() - decision.rank,
-        })
+        };
+        decision
+            .is_decided()
+            .then(|| (point, DecidedRows { decision, c }))
     }
 
     /// The largest component of a displacement, as a fraction of the size of the mechanism or in

@@ -27,9 +27,8 @@ pub struct ReactionVerdict {
     pub multipliers: Judgement,
     /// Verdicts on each of its rows.
     pub rows: Vec<RowVerdict>,
-    /// Verdicts on each component of the reaction that is not identically zero, and on the named
-    /// component of a definition between more than two bodies, as `load` of a coupling: force and
-    /// torque act on its first body and may not contain it.
+    /// Verdicts on each component of the reaction that is not identically zero, and on the `load`
+    /// of a coupling.
     pub components: Vec<ComponentVerdict>,
     /// The components that are zero at this configuration under any load, such as the force along a
     /// knife edge: unique, but not informative.

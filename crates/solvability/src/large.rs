@@ -16,7 +16,7 @@ use rank::{Evidence, SparseRank};
 
 use crate::analysis::analyse;
 use crate::freedoms::PartialRanks;
-use crate::mechanism::{Detail, reaction};
+use crate::mechanism::reaction;
 use crate::parts::{PartDecision, parts};
 use crate::sparse::{Decided, decide_some};
 
@@ -39,14 +39,7 @@ pub(crate) fn judge_sparse(
     let verdict = |id: ConstraintId| {
         let rows: Vec<usize> = layout.groups[id.0].rows.iter().collect();
         let own: Vec<usize> = (0..rows.len()).collect();
-        reaction(
-            mechanism,
-            id,
-            s,
-            &all.basis(&rows),
-            &own,
-            Detail::Directions,
-        )
+        reaction(mechanism, id, s, &all.basis(&rows), &own)
     };
     let decision = PartDecision::Sparse {
         rows: (&all.found).into(),

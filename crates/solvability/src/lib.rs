@@ -40,6 +40,7 @@ pub mod along;
 pub mod analysis;
 mod certificate;
 pub mod choices;
+mod components;
 mod directions;
 mod error;
 pub mod existence;
@@ -78,7 +79,7 @@ pub mod verdict;
 mod words;
 
 pub use along::{
-    Along, AlongError, Difference, Part, Passage, PassageKind, Stretch, along_motion,
+    Along, AlongError, Difference, GenericRank, Passage, PassageKind, Stretch, along_motion,
     along_motion_of_parts, singular_passages,
 };
 pub use analysis::{
@@ -103,7 +104,9 @@ pub use frames::{FrameForms, FrameVerdict, judge_frames};
 pub use freedoms::{
     FreeMotion, FreeMotions, Freedoms, FreedomsWithoutDrives, LeftOut, WithoutDrives, motions_among,
 };
-pub use generic::{Generic, OtherConfiguration, generic, is_permanent};
+pub use generic::{
+    Generic, GenericVerdict, OtherConfiguration, generic, generic_with_verdicts, is_permanent,
+};
 pub use groups::{
     Configuration, Group, GroupNumbers, GroupVerdict, LinearForm, ReactionForms, RequestError,
     Term, judge_groups,
@@ -127,7 +130,7 @@ pub use second_order::{
     CommonZero, Continuation, Restricted, Restrictions, SecondOrder, Undetermined,
     blocked_velocities, common_zero, is_locked, restrictions, second_order,
 };
-pub use sensitivity::{ReactionNumber, ReactionSensitivities, Sensitivities};
+pub use sensitivity::{GroupSensitivities, ReactionNumber, ReactionSensitivities, Sensitivities};
 pub use state::{State, StateError};
 pub use stretches::{
     CarriedState, CarriedVerdicts, GroupStretches, Looked, ReactionStretches, SpecialInstant,

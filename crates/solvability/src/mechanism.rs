@@ -23,7 +23,7 @@ pub(crate) fn part_verdicts(
     rows: &Rows,
     decision: RankDecision,
 ) -> Result<Judged, AnalysisError> {
-    let mut found = reaction_verdicts(mechanism, s, rows, decision, Detail::Directions)?;
+    let mut found = reaction_verdicts(mechanism, s, rows, decision)?;
     if let Some(decision) = found.part.decision.dense() {
         let open = rank::open_rows(decision);
         if !open.is_empty() {
@@ -45,22 +45,12 @@ pub(crate) fn part_verdicts(
     Ok(found)
 }
 
-/// How much is reported for each reaction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Detail {
-    /// The verdicts of its wrench, its components and its rows.
-    Verdicts,
-    /// Also the directions in which it is unique.
-    Directions,
-}
-
 /// Like [`part_verdicts`], without dependencies and near dependencies.
-pub(crate) fn reaction_verdicts(
+fn reaction_verdicts(
     mechanism: &Mechanism,
     s: &Scratch,
     rows: &Rows,
     decision: RankDecision,
-    detail: Detail,
 ) -> Result<Judged, AnalysisError> {
     let layout = mechanism.layout();
     let solvability = Solvability::from_decision(&rows.matrix(), decision);
@@ -74,7 +64,7 @@ pub(crate) fn reaction_verdicts(
     })?;
     let verdict = |id: ConstraintId| {
         let own: Vec<usize> = layout.groups[id.0].rows.iter().collect();
-        reaction(mechanism, id, s, basis, &own, detail)
+        reaction(mechanism, id, s, basis, &own)
     };
     let decision = PartDecision::Dense(Box::new(decision.clone()));
     Judged::new(mechanism, s.t, rows.size(), decision, ranks, verdict)
@@ -87,7 +77,6 @@ pub(crate) fn reaction(
     s: &Scratch,
     basis: &Basis,
     rows: &[usize],
-    detail: Detail,
 ) -> Result<ReactionVerdict, QueryError> {
     let group = &mechanism.layout().groups[id.0];
     let names = group.space.components();
@@ -112,7 +101,7 @@ pub(crate) fn reaction(
         })
     });
     let mut components = judged.collect::<Result<Vec<_>, QueryError>>()?;
-    components.extend(hidden_component(mechanism, id, s, basis, rows)?);
+    components.extend(own_load(mechanism, id, s, basis, rows)?);
     let on_bodies = basis.group(rows.iter().copied())?;
     let free = components
         .iter()
@@ -128,12 +117,9 @@ pub(crate) fn reaction(
     };
     // If the number of directions is undecided, none are given; the verdicts above say that it is
     // undecided.
-    let unique_directions = match detail {
-        Detail::Verdicts => None,
-        Detail::Directions => match mapped.unique_directions() {
-            Err(QueryError::Rank(_) | QueryError::Directions { .. }) => None,
-            known => Some(told(known?)),
-        },
+    let unique_directions = match mapped.unique_directions() {
+        Err(QueryError::Rank(_) | QueryError::Directions { .. }) => None,
+        known => Some(told(known?)),
     };
     let live_directions = unique_directions
         .as_deref()
@@ -180,16 +166,15 @@ pub(crate) fn component_map(
     (components, map)
 }
 
-/// The verdict on the named component of a definition whose force and torque on the first body may
-/// not contain it.
-fn hidden_component(
+/// The verdict on the load of a coupling.
+fn own_load(
     mechanism: &Mechanism,
     id: ConstraintId,
     s: &Scratch,
     basis: &Basis,
     rows: &[usize],
 ) -> Result<Option<ComponentVerdict>, QueryError> {
-    let Some(name) = mechanism.layout().groups[id.0].hidden_component() else {
+    let Some(name) = mechanism.layout().groups[id.0].own_load() else {
         return Ok(None);
     };
     let coefficients = mechanism.reactions(s).component_coefficients(id, name);

@@ -261,7 +261,7 @@ impl<'a> Questions<'a> {
     /// # Errors
     /// As [`Questions::group`].
     pub fn determined(&self, group: &Group, solution: &Solution) -> Result<Numbers, RequestError> {
-        let lambda = &solution.multipliers;
+        let lambda = solution.multipliers.as_chosen();
         self.numbers(group, |k, configuration, form| {
             let verdict = configuration.judge(form)?.verdict;
             let extent = &self.parts()[k].extent;
@@ -381,7 +381,7 @@ impl<'a> Questions<'a> {
         solution: &Solution,
         choice: &Choice,
     ) -> Result<Distribution, ChoiceError> {
-        let lambda = &solution.multipliers;
+        let lambda = solution.multipliers.as_chosen();
         if let [one] = self.parts()
             && one.extent.is_whole()
         {

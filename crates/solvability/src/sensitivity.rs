@@ -19,6 +19,7 @@
 //! Data whose uncertainty changes the rank itself are the subject of `numerical_rank`.
 
 mod by_sets;
+mod groups;
 mod held;
 mod instant;
 mod joined;
@@ -27,5 +28,6 @@ mod reactions;
 #[cfg(test)]
 mod tests;
 
+pub use groups::GroupSensitivities;
 pub use number::ReactionNumber;
 pub use reactions::{ReactionSensitivities, Sensitivities};

@@ -12,6 +12,7 @@
 //! Instants with another verdict are special: they are listed and decide nothing. An instant on a
 //! cut belongs to the stretch that begins there, the last instant to the last stretch.
 
+mod all;
 mod carried;
 mod recorder;
 #[cfg(test)]
@@ -99,6 +100,17 @@ impl VerdictTrack {
         &self.special
     }
 
+    /// Adds an instant that was looked at besides, if another verdict holds there than on its
+    /// stretch.
+    pub(crate) fn look(&mut self, time: f64, verdict: &Verdict) {
+        let place = self.special.partition_point(|s| s.time < time);
+        let is_known = self.special.get(place).is_some_and(|s| s.time == time);
+        if !is_known && verdict.word() != self.at(time).word() {
+            let verdict = verdict.clone();
+            self.special.insert(place, SpecialInstant { time, verdict });
+        }
+    }
+
     /// The verdict on the stretch that contains the time: of two that meet there, the later one.
     #[must_use]
     pub fn at(&self, t: f64) -> &Verdict {
@@ -174,7 +186,7 @@ impl VerdictTrack {
 }
 
 /// The worst of verdicts, the first of equals.
-fn worst<'v>(verdicts: impl Iterator<Item = &'v Verdict>) -> &'v Verdict {
+pub(crate) fn worst<'v>(verdicts: impl Iterator<Item = &'v Verdict>) -> &'v Verdict {
     let mut worst: Option<&Verdict> = None;
     for verdict in verdicts {
         if worst.is_none_or(|known| verdict.severity() > known.severity()) {

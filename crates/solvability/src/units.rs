@@ -17,7 +17,7 @@ use rank::{RankDecision, RankError};
 
 pub use rewrite::{Dimension, Units};
 
-use crate::choices::{ChoiceError, Equations, RowTerms, minimise};
+use crate::choices::{ChoiceError, Chosen, Equations, RowTerms, minimise};
 use crate::groups::{Configuration, LinearForm, RequestError, check_finite};
 use crate::matrices::Solvability;
 use rewrite::Rewriting;
@@ -138,7 +138,7 @@ pub(crate) fn check_equations(
         // Starts from one solution of the equations.
         let lambda = real.solution_of_kept(&decision.into())?.multipliers;
         for (check, form) in checks.iter_mut().zip(&numbers.forms) {
-            check.value = form.value(&lambda);
+            check.value = form.value(lambda.as_chosen());
         }
         return Ok(checks);
     }
@@ -149,7 +149,8 @@ pub(crate) fn check_equations(
         .collect::<Result<Vec<_>, _>>()?;
     for (is_real, equations) in [(true, real), (false, &numbers.probing_load(real))] {
         let lambda_0 = in_si.multipliers(equations)?;
-        let reference = numbers.least(&in_si, &lambda_0, None)?;
+        let lambda_0 = lambda_0.as_chosen();
+        let reference = numbers.least(&in_si, lambda_0, None)?;
         let scale = numbers.scale(equations, &reference);
         let mut compare = |other: &[f64]| {
             for (k, check) in checks.iter_mut().enumerate() {
@@ -158,10 +159,11 @@ pub(crate) fn check_equations(
             }
         };
         for other in &others {
-            compare(&numbers.least(other, &other.multipliers(equations)?, None)?);
+            let own = other.multipliers(equations)?;
+            compare(&numbers.least(other, own.as_chosen(), None)?);
         }
         for id in configuration.layout().constraint_ids() {
-            compare(&numbers.least(&in_si, &lambda_0, Some(id))?);
+            compare(&numbers.least(&in_si, lambda_0, Some(id))?);
         }
         if is_real {
             for (check, value) in checks.iter_mut().zip(reference) {
@@ -188,7 +190,7 @@ struct Rewritten {
 
 impl Rewritten {
     /// One solution in these units; the given equations are in SI units.
-    fn multipliers(&self, equations: &Equations) -> Result<Vec<f64>, ChoiceError> {
+    fn multipliers(&self, equations: &Equations) -> Result<Chosen<f64>, ChoiceError> {
         let equations = self.rewriting.equations(equations);
         let solution = equations.solution_of_kept(&self.solvability.decision().into())?;
         Ok(solution.multipliers)
@@ -219,7 +221,7 @@ impl<'a> Numbers<'a> {
                 let found = configuration.reactions.in_frame(id, frame)?;
                 let forces_only = frame != Frame::Global;
                 let mut components = found.map_or(Vec::new(), |f| f.components);
-                if let Some(name) = group.hidden_component().filter(|_| !forces_only) {
+                if let Some(name) = group.own_load().filter(|_| !forces_only) {
                     components.push((name, configuration.reactions.component(id, name)?));
                 }
                 for (component, (name, form)) in components.into_iter().enumerate() {

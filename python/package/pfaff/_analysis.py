@@ -34,6 +34,14 @@ class ComponentVerdict:
     """Distance from being unique; rounding for a unique one."""
     within_tolerance: bool
     """Whether it is unique only within the tolerance that is stated."""
+    sensitivity: float | None = None
+    """Largest change by one point, as a share; ``None`` if it is not unique or not known."""
+    fragile: bool = False
+    """Whether it is unique, but made of the last digits of the data."""
+    generic_verdict: str | None = None
+    """The verdict at the other configurations that were compared; ``None`` if none were reached.
+
+    Components in other frames, of moments and of sums have none."""
 
     @property
     def unique(self) -> bool:
@@ -42,8 +50,9 @@ class ComponentVerdict:
 
 
 def _components(of: Iterable[Mapping[str, Any]]) -> dict[str, ComponentVerdict]:
+    keys = ("name", "verdict", "margin", "within_tolerance", "sensitivity", "fragile")
     return {
-        c["name"]: ComponentVerdict(c["name"], c["verdict"], c["margin"], c["within_tolerance"])
+        c["name"]: ComponentVerdict(*(c[key] for key in keys), c.get("generic_verdict"))
         for c in of
     }
 
@@ -63,6 +72,15 @@ class Verdict:
     def verdict(self) -> str:
         """``unique``, ``not_unique`` or ``undecided``."""
         return self._word
+
+    @property
+    def generic_verdict(self) -> str | None:
+        """The verdict at the other configurations that were compared: at nearly all of them.
+
+        ``None`` if no other configuration was reached. That of a motion is in :meth:`Analysis.along`.
+        """
+        word: str | None = self._entry["generic_verdict"]
+        return word
 
     @property
     def unique(self) -> bool:
@@ -176,6 +194,10 @@ class GroupVerdict:
     """For a sum of wrenches, each of its components."""
     values: dict[str, float]
     """Its numbers; NaN where they are not unique."""
+    sensitivity: float | None = None
+    """Largest change of its unique numbers by one point, as a share; ``None`` without one."""
+    fragile: bool = False
+    """Whether one of its numbers is unique, but made of the last digits of the data."""
 
     @property
     def unique(self) -> bool:
@@ -222,7 +244,10 @@ class Analysis:
     def _direction_columns(self, reaction: Mapping[str, Any]) -> int:
         """Number of columns of the directions of a reaction."""
         is_spatial = self._own["velocities"] == 6 * self._own["bodies"]
-        return 6 if is_spatial else len(reaction["components"])
+        if is_spatial:
+            return 6
+        # Not the load of a coupling, which is no direction of force and torque.
+        return sum(c["name"] in ("Fx", "Fy", "T") for c in reaction["components"])
 
     @property
     def _reactions(self) -> dict[str, dict[str, Any]]:
@@ -266,7 +291,8 @@ class Analysis:
         found = json.loads(self._of.combine(sum))
         values = {value["name"]: _number(value["value"]) for value in found.get("values", [])}
         components = _components(found.get("components", []))
-        return GroupVerdict(sum, found["verdict"], found["margin"], components, values)
+        data = (found["sensitivity"], found["fragile"])
+        return GroupVerdict(sum, found["verdict"], found["margin"], components, values, *data)
 
     def moment(self, name: str, about: Point) -> dict[str, ComponentVerdict]:
         """The verdicts on the moment of a reaction about a point."""
@@ -289,7 +315,13 @@ class Analysis:
         return found
 
     def along(self, t_end: float | None = None) -> dict[str, Any]:
-        """The verdicts along the motion: ``along`` of ``pfaff analyze --along --json``."""
+        """The verdicts along the motion: ``along`` of ``pfaff analyze --along --json``.
+
+        ``reactions`` has, by name, the verdict over the motion of each joint and drive and of its
+        ``components``, with the intervals on which it is ``determined`` where it is only on some;
+        ``special`` the instants with other verdicts, as in the ``document`` of a run; ``passages``
+        the singular configurations.
+        """
         found: dict[str, Any] = json.loads(self._of.along(t_end))
         return found
 

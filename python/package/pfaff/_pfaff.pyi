@@ -141,9 +141,9 @@ class Scene:
     def simulate(self, /, options: Incomplete, numbers_of_choice: bool, choices: SupportsGetItem[int, SupportsFloat | SupportsIndex | None | SupportsGetItem[int, SupportsIndex] | SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex]]], on_event: Any | None, on_row: Any | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> Run:
         """
         Runs the scene. With `numbers_of_choice` numbers that are not determined on their stretch of
-        the run are those of the rows that the run keeps, otherwise NaN; `choices` give the others in
-        arrays of their own. `drives` are functions of time, measure and rate in place of laws,
-        `forces` functions of the states of bodies, each with its name.
+        the run are those of the rows that the run keeps, otherwise NaN; `choices` have arrays of
+        their own. `drives` are functions of time, measure and rate in place of laws, `forces`
+        functions of the states of bodies, each with its name.
         """
     def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete, choices: SupportsGetItem[int, SupportsFloat | SupportsIndex | None | SupportsGetItem[int, SupportsIndex] | SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex]]], until: SupportsFloat | SupportsIndex | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> str:
         """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -36,6 +36,9 @@ class Event:
     """Rows without multiplier after the event, from 1."""
     text: str
     """Description."""
+    impulses: dict[str, Any] = field(default_factory=dict)
+    """Where velocities jump: by joint or drive ``{"components": {NAME: {"value", "verdict"}}}``
+    (N·s, N·m·s), ``None`` for what is not unique at this instant."""
 
 
 class _Columns:

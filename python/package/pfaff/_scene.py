@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeGuard, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -474,7 +474,7 @@ def _known(options: Mapping[str, Any]) -> None:
             raise TypeError(f"there is no option `{name}`{advice}")
 
 
-def _is_rows(choose: object) -> bool:
+def _is_rows(choose: object) -> TypeGuard[Sequence[int]]:
     if isinstance(choose, (str, Mapping)) or not isinstance(choose, Iterable):
         return False
     return all(isinstance(row, (int, np.integer)) for row in choose)
@@ -482,7 +482,7 @@ def _is_rows(choose: object) -> bool:
 
 def _drop(choose: Choice | Sequence[Choice] | None) -> list[int] | None:
     """Rows that the run drops."""
-    return [int(row) for row in choose] if _is_rows(choose) else None  # type: ignore
+    return [int(row) for row in choose] if _is_rows(choose) else None
 
 
 def _chosen(choose: Choice | Sequence[Choice] | None) -> tuple[bool, list[NativeChoice]]:
@@ -493,7 +493,7 @@ def _chosen(choose: Choice | Sequence[Choice] | None) -> tuple[bool, list[Native
         return True, []
     if isinstance(choose, (str, Mapping)):
         return False, [_native(choose)]
-    return False, [_native(one) for one in choose]  # type: ignore
+    return False, [_native(one) for one in cast(Sequence[Choice], choose)]
 
 
 def _native(choose: Choice) -> NativeChoice:
@@ -502,7 +502,7 @@ def _native(choose: Choice) -> NativeChoice:
         pairs = [(name, x if isinstance(x, tuple) else (x, 0.0)) for name, x in choose.items()]
         return [(name, float(along), float(turn)) for name, (along, turn) in pairs]
     if _is_rows(choose):
-        return [int(row) for row in choose]  # type: ignore
+        return [int(row) for row in choose]
     if choose == "minimum-norm":
         return None
     if isinstance(choose, str) and choose.startswith("minimum-norm:length="):

@@ -63,7 +63,14 @@ pub(super) fn run_component(
         .iter()
         .filter_map(|group| component.share(group))
         .collect();
-    let verdicts = (!wanted.reactions.is_empty() && plan.verdicts != Verdicts::None)
+    // Verdicts are those of the whole mechanism, also where the reactions of other components are
+    // wanted alone.
+    let has_verdicts = plan
+        .components
+        .iter()
+        .any(|c| !c.decisions.reactions.value.is_empty());
+    let has_verdicts = has_verdicts && plan.verdicts != Verdicts::None;
+    let verdicts = has_verdicts
         .then(|| RunVerdicts::new(&motion, prepared, options, (&groups, plan.verdicts)));
     let choices = carried_choices(plan, component, &wanted).map_err(not_begun)?;
     let wanted = (wanted, verdicts);

@@ -630,9 +630,14 @@ impl Ode for RunEquations<'_> {
     fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), MotionFault> {
         self.by_time.iter_mut().for_each(ByTime::forget);
         let (q, v, work) = self.motion.parts_mut(y);
-        if let Some(impulse) = cross_break(&mut self.motion, t, (q, v))? {
+        if let Some(mut impulse) = cross_break(&mut self.motion, t, (&mut *q, v))? {
             if let Some(work) = work {
                 *work += impulse.energy;
+            }
+            if let Some(verdicts) = &mut self.verdicts {
+                let multipliers = &impulse.multipliers;
+                impulse.event.impulses =
+                    verdicts.impulses(&mut self.motion, (t, q), multipliers)?;
             }
             self.record.events.push(impulse.event);
         }

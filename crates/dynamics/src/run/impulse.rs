@@ -14,6 +14,8 @@ use crate::solve::Evaluation;
 pub(crate) struct Impulse {
     /// Work of the impulse (J).
     pub(crate) energy: f64,
+    /// Multipliers Λ of all rows (N·s, N·m·s), `M·(v⁺ − v⁻) + Cᵀ·Λ = 0`; zero on dropped rows.
+    pub(crate) multipliers: Vec<f64>,
     pub(crate) event: Event,
 }
 
@@ -53,6 +55,7 @@ pub(super) fn cross_break(
     };
     let jump = -rate[row];
     let kinetic = mechanism.kinetic_energy(v);
+    let v_before = v.to_vec();
     let KeptRowMotion {
         equations,
         manifold,
@@ -61,6 +64,9 @@ pub(super) fn cross_break(
     } = motion;
     let corrections = manifold.settle(equations, t, q)?;
     manifold.finish(equations, v, corrections)?;
+    let change = v.iter().zip(v_before).map(|(v, before)| v - before);
+    let change: Vec<f64> = change.collect();
+    let multipliers = equations.velocity.impulses(&equations.at, &change)?;
     watch.passage.forget_entry();
     if let Some(code) = code {
         code.restart(equations, watch, t);
@@ -72,7 +78,11 @@ pub(super) fn cross_break(
          energy by {energy:.6e} J. Reactions are infinite for this instant and not written."
     );
     let event = Event::at(t, EventKind::Impulse, &equations.velocity.dropped, text);
-    Ok(Some(Impulse { energy, event }))
+    Ok(Some(Impulse {
+        energy,
+        multipliers,
+        event,
+    }))
 }
 
 /// Change of Φ and C·v − b of a fixed state between two times, which comes from functions of time

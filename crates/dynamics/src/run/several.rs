@@ -121,10 +121,10 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
         .map(|k| left_out(mechanism, k))
         .collect();
     let (mut q, mut v) = (vec![0.0; layout.n_q], vec![0.0; layout.n_v]);
-    let rows = links.iter().map(|link| link.places.rows.as_slice());
+    let places = links.iter().map(|link| link.places);
     let dropped = plan.components.iter();
     let dropped = dropped.map(|c| c.prepared().decision.dropped.as_slice());
-    let mut whole = WholeEvents::new(rows.zip(dropped));
+    let mut whole = WholeEvents::new(places.zip(dropped));
     loop {
         let mut found: Vec<(usize, Event)> = Vec::new();
         let (mut time, mut work) = (None, 0.0);
@@ -268,7 +268,6 @@ fn verdicts(plan: &Plan<'_>, summary: &Summary) -> Option<Stretches> {
     let mechanism = &plan.prepared().mechanism;
     let mut whole = Stretches::unique(mechanism, [0.0, summary.t], &plan.groups);
     for (component, own) in plan.components.iter().zip(&summary.components) {
-        // A component without requested reactions has no verdicts.
         let Some(found) = &own.summary.verdicts else {
             continue;
         };

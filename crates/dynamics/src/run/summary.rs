@@ -1,10 +1,10 @@
 //! Numbers of a run, and of a run with separate components.
 
-use model::Places;
+use model::{ConstraintId, Places};
 
 use super::energy;
 use crate::error::MotionError;
-use crate::events::Event;
+use crate::events::{Event, ReactionImpulse};
 use crate::options::Method;
 use crate::solve::Misfit;
 use solvability::Stretches;
@@ -178,7 +178,7 @@ fn misfits(components: &[ComponentSummary]) -> Vec<Misfit> {
 
 /// Events of components in the order of time, as events of the whole mechanism.
 fn events(components: &[ComponentSummary], dropped: &[&[usize]]) -> Vec<Event> {
-    let places = components.iter().map(|c| c.places.rows.as_slice());
+    let places = components.iter().map(|c| &c.places);
     let mut whole = WholeEvents::new(places.zip(dropped.iter().copied()));
     let mut all: Vec<(usize, &Event)> = components
         .iter()
@@ -194,31 +194,37 @@ fn events(components: &[ComponentSummary], dropped: &[&[usize]]) -> Vec<Event> {
 /// Events of components with the rows and the degree of redundancy of the whole mechanism, in the
 /// order in which they are given.
 pub(super) struct WholeEvents<'p> {
-    /// Rows of each component in the whole.
-    places: Vec<&'p [usize]>,
+    /// Joints and rows of each component in the whole.
+    places: Vec<&'p Places>,
     /// Rows that each one drops, of the whole.
     now: Vec<Vec<usize>>,
 }
 
 impl<'p> WholeEvents<'p> {
-    /// Components with the places of their rows, and the rows that they drop at the start.
-    pub(super) fn new<'d>(components: impl Iterator<Item = (&'p [usize], &'d [usize])>) -> Self {
+    /// Components with their places, and the rows that they drop at the start.
+    pub(super) fn new<'d>(components: impl Iterator<Item = (&'p Places, &'d [usize])>) -> Self {
         let (places, now) = components
-            .map(|(places, dropped)| (places, of_whole(places, dropped)))
+            .map(|(places, dropped)| (places, of_whole(&places.rows, dropped)))
             .unzip();
         Self { places, now }
     }
 
     /// The next event, of component `k`.
     pub(super) fn event(&mut self, k: usize, event: &Event) -> Event {
-        self.now[k] = of_whole(self.places[k], &event.dropped);
+        self.now[k] = of_whole(&self.places[k].rows, &event.dropped);
         let mut dropped = self.now.concat();
         dropped.sort_unstable();
         let others = dropped.len() - event.dropped.len();
+        let groups = &self.places[k].groups;
+        let impulses = event.impulses.iter().map(|impulse| ReactionImpulse {
+            id: ConstraintId(groups[impulse.id.0]),
+            components: impulse.components.clone(),
+        });
         Event {
             redundancy_before: event.redundancy_before + others,
             redundancy_after: event.redundancy_after + others,
             dropped,
+            impulses: impulses.collect(),
             ..event.clone()
         }
     }
@@ -242,6 +248,7 @@ mod tests {
             redundancy_after: dropped.len(),
             dropped: dropped.to_vec(),
             text: String::new(),
+            impulses: Vec::new(),
         }
     }
 

@@ -1,11 +1,14 @@
 //! The verdicts of a run: at accepted steps and written rows they are read from the rows that are
 //! factored there.
 
-use model::System;
-use solvability::{CarriedState, CarriedVerdicts, Group, Looked, Stretches};
+use std::collections::HashMap;
+
+use model::{ConstraintId, System};
+use solvability::{CarriedState, CarriedVerdicts, Group, Looked, Stretches, Value, Verdict};
 
 use super::summary::DroppedRows;
 use crate::error::MotionFault;
+use crate::events::ReactionImpulse;
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
 use crate::plan::Verdicts;
@@ -103,6 +106,56 @@ impl<'m> RunVerdicts<'m> {
         };
         carried.look(&state, looked);
         Ok(())
+    }
+
+    /// The impulses of all joints and drives for these multipliers of all rows, which are those of
+    /// one choice, with the verdicts at this instant, at which the rows are factored.
+    pub(super) fn impulses(
+        &mut self,
+        motion: &mut KeptRowMotion<'_>,
+        (t, q): (f64, &[f64]),
+        multipliers: &[f64],
+    ) -> Result<Vec<ReactionImpulse>, MotionFault> {
+        let (equations, blind) = (&mut motion.equations, motion.watch.blind());
+        let (at, rows) = (&equations.at, &mut equations.velocity);
+        let mut open: HashMap<_, Verdict> = HashMap::new();
+        if let Some(carried) = &mut self.carried {
+            let is_singular = rows.n_left_out() > 0 || rows.relative_pivot() < blind;
+            if !is_singular {
+                rows.dependencies(at, &mut self.dependencies)?;
+            }
+            let state = CarriedState {
+                t,
+                q,
+                scratch: &at.s,
+                dependencies: &self.dependencies,
+            };
+            let found = carried.components_at((!is_singular).then_some(&state));
+            let named = found.into_iter();
+            open = named
+                .map(|(id, name, verdict)| ((id, name), verdict))
+                .collect();
+        }
+        let layout = at.mechanism.layout();
+        let reactions = at.mechanism.reactions(&at.s);
+        let of = |id: ConstraintId| {
+            let group = &layout.groups[id.0];
+            let found = reactions.reaction(id, multipliers);
+            let all: Vec<f64> = found.components(group.space).collect();
+            let names = group.space.components();
+            let own = group.components().into_iter().map(|c| (names[c], all[c]));
+            let named = group.spec.component.zip(found.component);
+            let component = |(name, value): (&'static str, f64)| {
+                let verdict = open.get(&(id, name)).cloned();
+                let verdict = verdict.unwrap_or(Verdict::Unique);
+                (name, Value::new(value, verdict, None))
+            };
+            ReactionImpulse {
+                id,
+                components: own.chain(named).map(component).collect(),
+            }
+        };
+        Ok(layout.constraint_ids().map(of).collect())
     }
 
     /// Takes note of the rows without multiplier at a row of output.

@@ -266,6 +266,26 @@ impl KeptRows {
         self.solve_for_multipliers().map_err(|e| self.fault(at, e))
     }
 
+    /// Multipliers Λ of all rows with `M·change + C_Kᵀ·Λ = 0` for a change of the velocities by an
+    /// impulse of the kept rows; zero on other rows. The rows must be factored.
+    pub(crate) fn impulses(
+        &mut self,
+        at: &Evaluation<'_>,
+        change: &[f64],
+    ) -> Result<Vec<f64>, MotionFault> {
+        let momenta = change.iter().zip(at.mechanism.mass());
+        let momenta: Vec<f64> = momenta.map(|(v, m)| -m * v).collect();
+        self.scaled.take_force(&momenta);
+        self.scaled.motion.fill(0.0);
+        self.solve_for_multipliers()
+            .map_err(|e| self.fault(at, e))?;
+        let mut all = vec![0.0; at.mechanism.layout().rows()];
+        for (&i, multiplier) in self.kept.iter().zip(&self.lambda) {
+            all[i] = *multiplier;
+        }
+        Ok(all)
+    }
+
     fn solve_for_multipliers(&mut self) -> Result<(), SaddleError> {
         let Scaled { force, motion, .. } = &self.scaled;
         self.solver.multipliers(force, motion, &mut self.lambda)

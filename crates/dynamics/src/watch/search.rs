@@ -197,6 +197,7 @@ impl<'m> Search<'m> {
                 "passed a singular configuration, where {dependent} more {rows} {verb} on the others for an instant: {uniqueness}. \
                  The run went on as smoothly as it came."
             ),
+            impulses: Vec::new(),
         }
     }
 }

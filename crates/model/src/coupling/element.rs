@@ -142,35 +142,8 @@ impl<T: KernelNumbers, S: Kinematics> Element<T, S> for Coupling<S> {
     where
         T: Real,
     {
-        let zero = T::from(0.0);
-        let both = self.both(x, f);
-        let [x_meets, y_meets] = self.meets.map(T::from);
-        let factors = [-(x_meets * both.h[1]), y_meets];
-        let place = Element::<T, S>::place(self, x);
-        out.fill(zero);
-        for ((side, at), factor) in self.sides.iter().zip([&both.x, &both.y]).zip(factors) {
-            let (spec, own) = (side.drive.spec(), side.own(x));
-            let mut entries = [zero; MOST];
-            let kernels = T::all_of(side.drive.as_ref());
-            kernels.wrench(&own, &at.f, &mut entries[..spec.wrench.len()]);
-            let mut wrench = [zero; 6];
-            for (&[component, _], value) in spec.wrench.iter().zip(entries) {
-                wrench[component] = factor * value;
-            }
-            let there = kernels.place(&own);
-            let arm = |k: usize| there.as_ref()[k] - place.as_ref()[k];
-            let moments: &[[usize; 3]] = match S::DIM {
-                2 => &[[2, 0, 1]],
-                _ => &[[5, 0, 1], [3, 1, 2], [4, 2, 0]],
-            };
-            for &[about, a, b] in moments {
-                let moment = arm(a) * wrench[b] - arm(b) * wrench[a];
-                wrench[about] = wrench[about] + moment;
-            }
-            for (out, value) in out.iter_mut().zip(wrench) {
-                *out = *out + value;
-            }
-        }
+        let (side, at) = (&self.sides[1], self.both(x, f).y);
+        T::all_of(side.drive.as_ref()).wrench(&side.own(x), &at.f, out);
     }
 
     fn component(&self, _: &[PoseOf<S, T>], _: &[[T; 3]], out: &mut [T]) {
@@ -181,7 +154,7 @@ impl<T: KernelNumbers, S: Kinematics> Element<T, S> for Coupling<S> {
     where
         T: Real,
     {
-        let side = &self.sides[0];
+        let side = &self.sides[1];
         T::all_of(side.drive.as_ref()).place(&side.own(x))
     }
 

@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
+use super::TYPE;
 use joints::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Parameter, Role, Row, Shape, Spec, Unit,
 };
@@ -116,10 +117,9 @@ fn made(
         }
         kept(sorted(pairs))
     };
-    let wrench: Vec<[usize; 2]> = (0..n_dof).map(|k| [k, 0]).collect();
     let spec = ConstraintSpec {
         c: kept(c.collect()),
-        wrench: kept(wrench),
+        wrench: measures[1].wrench,
         turns: measures.iter().filter(|m| m.turning).count(),
         d_force_dx: blocks(|m| m.d_force_dx),
         d_residual_dx: rows(|m| m.d_residual_dx),
@@ -136,7 +136,7 @@ fn made(
 const PLAIN: ConstraintSpec = ConstraintSpec {
     common: Spec {
         name: "Coupling",
-        scene_type: "coupling",
+        scene_type: TYPE,
         variant: None,
         doc: "A measure of one joint follows a measure of another, both since the start.",
         text: "",

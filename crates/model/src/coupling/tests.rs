@@ -241,7 +241,7 @@ fn close(found: &[f64], expected: &[f64], what: &str) {
 
 fn cases() -> Vec<Case> {
     // Slots of the angles of each coupling.
-    let angles: [&[[usize; 2]]; 3] = [&[[1, 0]], &[[0, 2]], &[[1, 0], [1, 2]]];
+    let angles: [&[[usize; 2]]; 3] = [&[[2, 3]], &[[0, 1]], &[[0, 2], [0, 1]]];
     let case = |(seed, (bodies, mut kernels)): (usize, Placed<Space3>)| {
         let state = |number: usize| {
             let mut state = State::new(bodies.len(), number);
@@ -370,20 +370,26 @@ fn derivatives_by_data_agree_with_differences() {
     }
 }
 
-/// The wrench on the first body is −C of it, moved to the place.
+/// The second body of the joint of y has the load along y alone, −C, in all cases. Its opposite
+/// acts on the first body of that joint, also where the joint of x loads that body, too.
 #[test]
-fn the_wrench_is_what_the_row_does_to_the_first_body() {
+fn the_wrench_is_the_load_along_the_measure_that_follows() {
     for case in cases() {
         let x = case.state.poses(&case.state.still());
-        let mut wrench = [0.0; 6];
+        let pattern = case.kernels.spec().wrench;
+        let mut entries = vec![0.0; pattern.len()];
         case.kernels
-            .wrench(&x, &given(&case.kernels, &x), &mut wrench);
+            .wrench(&x, &given(&case.kernels, &x), &mut entries);
+        let mut wrench = [0.0; 6];
+        for (&[component, _], value) in pattern.iter().zip(entries) {
+            wrench[component] += value;
+        }
         let c = case.dense(&x);
-        let force = [-c[0], -c[1], -c[2]];
+        let force = [c[6], c[7], c[8]];
         close(&wrench[..3], &force, "force");
-        let torque = x[0].direction_to_global([-c[3], -c[4], -c[5]]);
+        let torque = x[1].direction_to_global([c[9], c[10], c[11]]);
         let place = case.kernels.place(&x);
-        let arm: [f64; 3] = std::array::from_fn(|k| place[k] - x[0].r[k]);
+        let arm: [f64; 3] = std::array::from_fn(|k| place[k] - x[1].r[k]);
         let moved = joints::space3::cross(arm, force);
         let expected: Vec<f64> = (0..3).map(|k| torque[k] - moved[k]).collect();
         close(&wrench[3..], &expected, "torque");

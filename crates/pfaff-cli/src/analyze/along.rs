@@ -1,9 +1,11 @@
 //! Verdicts along the motion: the run with its progress bar on a terminal, and the answer in words.
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
-use pfaff::report::documents::AlongDocument;
-use pfaff::{Progress, Study, StudyError};
+use pfaff::model::words::rounded;
+use pfaff::report::documents::{AlongDocument, AlongReactionDocument, SpecialDocument};
+use pfaff::{Progress, Study, StudyError, VerdictsAlongMotion};
 
+use super::text::spoken;
 use crate::input::Source;
 use crate::output::{Failure, count, wrapped};
 
@@ -14,13 +16,16 @@ const TICKS: u64 = 1000;
 /// radians.
 const COARSE: f64 = 0.2;
 
+/// Number of instants that are listed.
+const INSTANTS: usize = 12;
+
 /// Runs and judges the motion.
 pub(super) fn judge(
     source: &Source,
     study: &Study,
     t_end: Option<f64>,
     bars: &MultiProgress,
-) -> Result<AlongDocument, Failure> {
+) -> Result<VerdictsAlongMotion, Failure> {
     let own = study.options.as_ref().map(|options| options.t_end);
     let Some(end) = t_end.or(own) else {
         return Err(source.failure(StudyError::NoEnd));
@@ -48,51 +53,39 @@ pub(super) fn judge(
         bar.set_position((t / end * TICKS as f64) as u64);
     });
     bar.finish_and_clear();
-    let along_motion = along_motion.map_err(|e| source.failure(e))?;
-    Ok(along_motion.document())
+    along_motion.map_err(|e| source.failure(e))
 }
 
-/// The verdict that holds along the motion, then the intervals with other verdicts.
+/// The verdicts over the motion, instants and intervals with others, and singular configurations.
 pub(super) fn describe(along: &AlongDocument) -> String {
     let mut out = format!(
         "\nAlong the motion, t = 0 to {} s ({}):\n",
         seconds(along.to),
         count(along.samples, "state judged", "states judged"),
     );
-    let generic = &along.generic;
-    let named = |word: &str| {
-        let reactions = generic.reactions.iter();
-        let with: Vec<&str> = reactions
-            .filter(|r| r.verdict.verdict == word)
-            .map(|r| r.name.as_str())
-            .collect();
-        match with.as_slice() {
-            [] => "none".to_owned(),
-            names => names.join(", "),
+    out.push_str(&wrapped("- ", &over_the_motion(along)));
+    for (name, reaction) in &along.reactions.0 {
+        if reaction.of_run.verdict != "unique" {
+            out.push_str(&wrapped("- ", &components(name, reaction)));
         }
-    };
-    let mut general = format!(
-        "almost always rank {}, redundancy {}; unique: {}; not unique: {}",
-        generic.rank,
-        generic.redundancy,
-        named("unique"),
-        named("not_unique"),
-    );
-    if generic
-        .reactions
-        .iter()
-        .any(|r| r.verdict.verdict == "undecided")
-    {
-        general.push_str(&format!("; undecided: {}", named("undecided")));
     }
-    out.push_str(&wrapped("- ", &general));
+    let special = special(along);
     let stretches = along.stretches.iter().map(|s| &s.text);
     let passages = along.passages.iter().map(|p| &p.text);
-    for text in stretches.chain(passages) {
+    let all: Vec<&String> = stretches
+        .chain(passages)
+        .chain(special.iter().take(INSTANTS))
+        .collect();
+    for text in &all {
         out.push_str(&wrapped("- ", text));
     }
-    if along.stretches.is_empty() && along.passages.is_empty() {
+    let is_constant = |(_, r): &(String, AlongReactionDocument)| r.of_run.determined.is_empty();
+    if all.is_empty() && along.reactions.0.iter().all(is_constant) {
         out.push_str("- nothing else holds at any time\n");
+    }
+    if special.len() > INSTANTS {
+        let more = special.len() - INSTANTS;
+        out.push_str(&format!("- and {more} instants more (`--json` has all)\n"));
     }
     if along.reach > COARSE {
         let between = format!(
@@ -112,6 +105,74 @@ pub(super) fn describe(along: &AlongDocument) -> String {
         out.push_str(&wrapped("- ", &judged));
     }
     out
+}
+
+/// The rank, and the verdict of each reaction over the motion.
+fn over_the_motion(along: &AlongDocument) -> String {
+    let generic = &along.generic;
+    let reactions = &along.reactions.0;
+    let named = |word: &str| -> Vec<&str> {
+        let with = reactions.iter().filter(|(_, r)| r.of_run.verdict == word);
+        with.map(|(name, _)| name.as_str()).collect()
+    };
+    let mut text = format!(
+        "almost always rank {}, redundancy {}",
+        generic.rank, generic.redundancy
+    );
+    for word in ["unique", "not_unique", "undecided"] {
+        let names = match named(word).as_slice() {
+            [] if word == "undecided" => continue,
+            [] => "none".to_owned(),
+            names => names.join(", "),
+        };
+        text.push_str(&format!("; {}: {names}", spoken(word)));
+    }
+    text
+}
+
+/// The verdict of each component over the motion.
+fn components(name: &str, reaction: &AlongReactionDocument) -> String {
+    let each = reaction.components.0.iter().map(|(component, track)| {
+        let on = match track.on_intervals() {
+            on if on.is_empty() => String::new(),
+            on => format!(" (unique on {on})"),
+        };
+        format!("{component} {}{on}", spoken(track.verdict))
+    });
+    format!("`{name}`: {}", each.collect::<Vec<_>>().join(", "))
+}
+
+/// What else holds at single instants that are no singular configurations.
+fn special(along: &AlongDocument) -> Vec<String> {
+    let is_apart = |s: &&SpecialDocument| along.passages.iter().all(|p| p.time != s.time);
+    let mut instants: Vec<(String, Vec<(&str, String)>)> = Vec::new();
+    for special in along.special.iter().filter(is_apart) {
+        let time = rounded(special.time);
+        let name = match special.component {
+            Some(component) => format!("{}.{component}", special.name),
+            None => special.name.clone(),
+        };
+        let told = (special.verdict, name);
+        match instants.last_mut() {
+            Some((known, all)) if *known == time => {
+                if !all.contains(&told) {
+                    all.push(told);
+                }
+            }
+            _ => instants.push((time, vec![told])),
+        }
+    }
+    let text = |(time, all): &(String, Vec<(&str, String)>)| {
+        let of = |word: &str| {
+            let names = all.iter().filter(|(verdict, _)| *verdict == word);
+            let names: Vec<&str> = names.map(|(_, name)| name.as_str()).collect();
+            (!names.is_empty()).then(|| format!("{}: {}", spoken(word), names.join(", ")))
+        };
+        let words = ["unique", "not_unique", "undecided"].into_iter();
+        let told: Vec<String> = words.filter_map(of).collect();
+        format!("at t = {time} s, for an instant, {}", told.join("; "))
+    };
+    instants.iter().map(text).collect()
 }
 
 /// Formats a time to the nanosecond, without trailing zeros.

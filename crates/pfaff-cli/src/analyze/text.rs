@@ -82,7 +82,7 @@ fn heading(d: &AnalysisDocument) -> String {
 }
 
 /// A word of the document in prose, as `not unique` for `not_unique`.
-fn spoken(word: &str) -> String {
+pub(super) fn spoken(word: &str) -> String {
     word.replace('_', " ")
 }
 
@@ -102,6 +102,17 @@ fn verdicts(d: &AnalysisDocument) -> String {
     if !hanging.is_empty() {
         let lead = format!("{:<12}", "FRAGILE:");
         out.push_str(&wrapped(&lead, &hanging.join(", ")));
+    }
+    let differing: Vec<_> = d.reactions.iter().flat_map(|r| r.differing()).collect();
+    let elsewhere = words.iter().filter_map(|word| {
+        let names = differing.iter().filter(|(_, generic)| generic == word);
+        let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
+        (!names.is_empty()).then(|| format!("{}: {}", spoken(word), names.join(", ")))
+    });
+    let elsewhere: Vec<String> = elsewhere.collect();
+    if !elsewhere.is_empty() {
+        let lead = format!("{:<12}", "elsewhere:");
+        out.push_str(&wrapped(&lead, &elsewhere.join("; ")));
     }
     let header = [
         "reaction",

@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 
 use super::bad_input::PENDULUM;
-use super::{ROBOT, pfaff, stderr, stdout, with_scene};
+use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
 /// The analysis of the published mechanism, checked by reading; `PFAFF_BLESS=1` rewrites it.
 const GOLDEN: &str = concat!(
@@ -47,6 +47,28 @@ fn cranks() -> String {
     );
     scene
 }
+
+/// Three upright cranks on a coupler, one pivot of which is two points on lines. The cranks share a
+/// force along them: it has no part along x where they are upright, at the start alone.
+const UPRIGHT: &str = r#"
+scene = { name = "upright", space = "plane", gravity = [0.0, -10.0] }
+body = [
+    { name = "one", mass = 1.0, inertia = 0.02, position = [0.0, 0.25], angular_velocity = 2.0 },
+    { name = "two", mass = 1.0, inertia = 0.02, position = [1.0, 0.25] },
+    { name = "three", mass = 1.0, inertia = 0.02, position = [2.0, 0.25] },
+    { name = "coupler", mass = 3.0, inertia = 1.0, position = [1.0, 0.5] },
+]
+joint = [
+    { name = "pivot one", type = "revolute", bodies = ["ground", "one"], at = [0.0, 0.0] },
+    { name = "sideways", type = "point-on-line", body = "two", at = [1.0, 0.0], line = [[1.0, -1.0], [1.0, 1.0]] },
+    { name = "upwards", type = "point-on-line", body = "two", at = [1.0, 0.0], line = [[0.0, 0.0], [2.0, 0.0]] },
+    { name = "pivot three", type = "revolute", bodies = ["ground", "three"], at = [2.0, 0.0] },
+    { name = "tip one", type = "revolute", bodies = ["one", "coupler"], at = [0.0, 0.5] },
+    { name = "tip two", type = "revolute", bodies = ["two", "coupler"], at = [1.0, 0.5] },
+    { name = "tip three", type = "revolute", bodies = ["three", "coupler"], at = [2.0, 0.5] },
+]
+simulate = { t_end = 0.4, output_step = 0.1 }
+"#;
 
 /// A bob on two pivots at this distance (m).
 fn twin(apart: f64) -> String {
@@ -401,16 +423,30 @@ fn a_whole_motion_has_one_verdict_and_exceptions() {
         (&json!(10.0), &Value::Null)
     );
     assert_eq!(along["generic"]["redundancy"], 2);
-    let stretches = along["stretches"].as_array().expect("a list");
-    assert_eq!(stretches.len(), 1);
+    let none: [Value; 0] = [];
+    assert_eq!(along["stretches"], json!(none));
+    assert_eq!(along["passages"], json!(none));
+    // Straight for a second, and at its end: across the wheels is y.
+    let found = &along["reactions"]["B"];
+    assert_eq!(found["verdict"], "not_unique");
     assert_eq!(
-        (&stretches[0]["from"], &stretches[0]["to"]),
-        (&json!(0.0), &json!(1.0))
+        found["components"]["Fx"],
+        json!({ "verdict": "not_unique", "determined": [[0.0, 1.0]] })
     );
-    let passages = along["passages"].as_array().expect("a list");
-    assert!(
-        passages.iter().all(|p| p["kind"] == "verdicts"),
-        "{passages:#?}"
+    assert_eq!(
+        found["components"]["Fy"],
+        json!({ "verdict": "not_unique" })
+    );
+    let end = json!({ "time": 1.0, "name": "B", "component": "Fx", "verdict": "unique" });
+    let special = along["special"].as_array().expect("a list");
+    assert!(special.contains(&end), "{special:#?}");
+    let text = stdout(&pfaff(&["analyze", ROBOT, "--along"]));
+    contains(
+        &text,
+        &[
+            "- `B`: Fx not unique (unique on 0 … 1 s), Fy not unique",
+            "- at t = 1 s, for an instant, unique: B.Fx, C.Fx, W1.Fx, W2.Fx, W3.Fx, W4.Fx",
+        ],
     );
     let text = stdout(&pfaff(&["analyze", ROBOT, "--along", "0.5"]));
     contains(
@@ -419,6 +455,105 @@ fn a_whole_motion_has_one_verdict_and_exceptions() {
             "Along the motion, t = 0 to 0.5 s",
             "nothing else holds at any time",
         ],
+    );
+}
+
+/// The words of a reaction and its components here, and those that hold at nearly all
+/// configurations.
+fn here_and_generic(document: &Value, reaction: &str) -> Vec<(String, Value, Value)> {
+    let reactions = document["reactions"].as_array().expect("a list");
+    let found = reactions.iter().find(|r| r["name"] == reaction);
+    let found = found.expect("a reaction");
+    let components = found["components"].as_array().expect("a list");
+    let all = std::iter::once(found).chain(components);
+    all.map(|x| {
+        let name = x["name"].as_str().expect("a name").to_owned();
+        assert!(x.get("generic_verdict").is_some(), "{x:#}");
+        (name, x["verdict"].clone(), x["generic_verdict"].clone())
+    })
+    .collect()
+}
+
+/// Whether by other configurations or by the motion: upright the force sideways is determined, and
+/// nowhere else.
+#[test]
+fn a_verdict_has_the_one_that_holds_elsewhere_beside_it() {
+    let at_once: &[&str] = &["analyze", "-", "--json"];
+    for more in [&[][..], &["--along"], &["--along", "0.2"]] {
+        let output = with_scene(&[at_once, more].concat(), UPRIGHT);
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let found = document(&output);
+        let words = |name: &str, reaction: &str| {
+            let all = here_and_generic(&found, reaction);
+            let own = all.into_iter().find(|(known, ..)| known == name);
+            own.map(|(_, here, generic)| (here, generic))
+        };
+        let expected = Some((json!("unique"), json!("not_unique")));
+        let open = Some((json!("not_unique"), json!("not_unique")));
+        for name in ["sideways", "Fx"] {
+            assert_eq!(words(name, "sideways"), expected, "{more:?}");
+        }
+        assert_eq!(words("Fx", "tip two"), expected, "{more:?}");
+        assert_eq!(words("Fy", "tip two"), open, "{more:?}");
+        assert_eq!(words("tip two", "tip two"), open, "{more:?}");
+    }
+    // On the way here and elsewhere are the same.
+    let output = with_scene(&["analyze", "-", "--json", "--at-time", "0.2"], UPRIGHT);
+    for (name, here, generic) in here_and_generic(&document(&output), "sideways") {
+        assert_eq!(
+            (here, generic),
+            (json!("not_unique"), json!("not_unique")),
+            "{name}"
+        );
+    }
+    let text = stdout(&with_scene(&["analyze", "-"], UPRIGHT));
+    contains(
+        &text,
+        &["elsewhere: not unique: pivot one.Fx, sideways.Fx, pivot three.Fx"],
+    );
+    // A beam on two hinges has no other configuration.
+    let output = with_scene(&["analyze", "-", "--json"], BEAM);
+    for (name, _, generic) in here_and_generic(&document(&output), "left") {
+        assert_eq!(generic, Value::Null, "{name}");
+    }
+    assert!(!stdout(&with_scene(&["analyze", "-"], BEAM)).contains("elsewhere:"));
+}
+
+/// The verdicts along the motion are those of `summary.json` of the run, with what is special at
+/// the start.
+#[test]
+fn along_the_motion_and_in_its_run_verdicts_are_the_same() {
+    for scene in [UPRIGHT.to_owned(), cranks()] {
+        let along = with_scene(&["analyze", "-", "--along", "--json"], &scene);
+        let along = &document(&along)["along"];
+        let folder = Folder::new("along-and-run");
+        let run = with_scene(&["simulate", "-", "--json", "--out", folder.text()], &scene);
+        let run = document(&run);
+        let reactions = run["reactions"].as_object().expect("an object");
+        for (name, reaction) in reactions {
+            let same = |own: &Value, of_run: &Value| {
+                for key in ["verdict", "determined"] {
+                    assert_eq!(own.get(key), of_run.get(key), "{name} {own:#}");
+                }
+            };
+            let own = &along["reactions"][name];
+            same(own, reaction);
+            let components = reaction["components"].as_object().expect("an object");
+            for (component, of_run) in components {
+                same(&own["components"][component], of_run);
+            }
+        }
+        let listed = along["special"].as_array().expect("a list");
+        for special in run["special"].as_array().expect("a list") {
+            assert!(listed.contains(special), "{special:#} in {listed:#?}");
+        }
+    }
+    let along = with_scene(&["analyze", "-", "--along", "--json"], UPRIGHT);
+    let start = json!({ "time": 0.0, "name": "sideways", "component": "Fx", "verdict": "unique" });
+    let special = document(&along)["along"]["special"].clone();
+    assert!(
+        special.as_array().is_some_and(|all| all.contains(&start)),
+        "{special:#}"
     );
 }
 

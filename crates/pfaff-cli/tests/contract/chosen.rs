@@ -183,7 +183,7 @@ fn rows_of_a_choice_are_those_of_analyze() {
                     seen += 1;
                 }
             }
-            assert!(seen > 40, "{seen}");
+            assert!(seen >= 30, "{seen}");
         }
     }
 }
@@ -306,11 +306,15 @@ fn choices_within_a_tolerance() {
     let output = with_scene(&arguments, &scene);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let [least, right] = ["choice.csv", "choice_2.csv"].map(|file| table(&folder, file));
-    for wheel in ["left.N", "middle.N", "right.N"] {
-        near(&column(&least, wheel), 5.0 / 3.0, 5e-3);
+    // The right wheel is kept. Its force turns the cart faster: 5 N · 1e-4 m on 1 kg·m².
+    for (k, t) in column(&least, "t").into_iter().enumerate() {
+        let side = 10.0 * (0.5 + 5e-4 * t);
+        for wheel in ["left.N", "middle.N", "right.N"] {
+            near(&column(&least, wheel)[k..=k], side / 3.0, 1e-4 * side);
+        }
+        near(&column(&right, "right.N")[k..=k], side, 1e-4 * side);
     }
     near(&column(&right, "left.N"), 0.0, 0.0);
-    near(&column(&right, "right.N"), 5.0, 5e-3);
 }
 
 /// A run that is refused leaves the directory as it was.
@@ -350,4 +354,21 @@ fn a_refusal_leaves_nothing_behind() {
         let entries = std::fs::read_dir(deep).expect("there").count();
         assert_eq!(entries, 1, "{more:?}");
     }
+}
+
+/// A mechanism without joints has a table of reactions with nothing but times.
+#[test]
+fn no_joints_are_an_empty_table() {
+    let stone = r#"
+        scene = { name = "stone", space = "plane", gravity = [0.0, -9.81] }
+        body = [{ name = "stone", mass = 1.0, inertia = 0.1 }]
+        simulate = { t_end = 1.0, output_step = 0.5 }
+    "#;
+    let folder = Folder::new("no-joints");
+    let output = with_scene(&["simulate", "-", "--out", folder.text()], stone);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(folder.read("reactions.csv"), "t\n0.0\n0.5\n1.0\n");
+    let entries = std::fs::read_dir(&folder.0).expect("there");
+    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    assert!(names.into_iter().all(|name| !name.ends_with(".part")));
 }

@@ -91,6 +91,76 @@ fn analyze_looks_at_any_time_of_the_motion() {
     assert_eq!(d["groups"][0]["verdict"], "not_unique");
 }
 
+/// Where the rate of a motor jumps by −3 rad/s, its impulse is that of the moment of momentum about
+/// the pin, 3·(0.3 + 2·0.5²) N·m·s on the ground; two pins at one place share theirs in any way.
+#[test]
+fn impulses_are_values_with_verdicts() {
+    let scene = r#"
+scene = { name = "wheel", space = "plane" }
+body = [{ name = "wheel", mass = 2.0, inertia = 0.3, position = [0.5, 0.0] }]
+joint = [
+    { name = "pin", type = "revolute", bodies = ["ground", "wheel"], at = [0.0, 0.0] },
+    { name = "other", type = "revolute", bodies = ["ground", "wheel"], at = [0.0, 0.0] },
+]
+drive = [{ name = "motor", joint = "pin", type = "angle", motion = { type = "linear-table", times = [0.0, 1.0, 3.0], values = [0.0, 2.0, 0.0] } }]
+simulate = { t_end = 2.0 }
+"#;
+    let impulses = |arguments: &[&str], scene: &str| {
+        let output = with_scene(arguments, scene);
+        let d = json(&stdout(&output));
+        let events = d["events"].as_array().expect("a list").iter();
+        let mut impulses = events.filter(|e| e["kind"] == "impulse");
+        impulses.next().expect("one")["impulses"].clone()
+    };
+    let folder = Folder::new("impulses");
+    let arguments = ["simulate", "-", "--out", folder.text(), "--json"];
+    let found = impulses(&arguments, scene);
+    let open = serde_json::json!({ "value": null, "verdict": "not_unique" });
+    for name in ["pin", "other"] {
+        assert_eq!(
+            found[name]["components"],
+            serde_json::json!({ "Fx": open, "Fy": open })
+        );
+    }
+    let drive = &found["motor"]["components"]["drive"];
+    assert_eq!(drive["verdict"], "unique");
+    let value = drive["value"].as_f64().expect("a number");
+    assert!((value - 2.4).abs() < 1e-9, "{value}");
+    let silent = format!("{scene}output = {{ reactions = false }}\n");
+    assert_eq!(impulses(&arguments, &silent), Value::Null);
+}
+
+/// Two mechanisms that have nothing to do with each other: where only the reactions of one are
+/// wanted, the other has its verdicts, too.
+#[test]
+fn what_is_not_wanted_is_not_called_unique() {
+    let scene = r#"
+scene = { name = "two", space = "plane", gravity = [0.0, -10.0] }
+body = [
+    { name = "beam", mass = 1.0, inertia = 0.1 },
+    { name = "bob", mass = 1.0, inertia = 0.1, position = [5.0, -1.0] },
+]
+joint = [
+    { name = "left", type = "revolute", bodies = ["ground", "beam"], at = [-1.0, 0.0] },
+    { name = "right", type = "revolute", bodies = ["ground", "beam"], at = [1.0, 0.0] },
+    { name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [5.0, 0.0] },
+]
+simulate = { t_end = 0.1 }
+output = { reactions = ["pivot"] }
+"#;
+    let folder = Folder::new("not-wanted");
+    let arguments = ["simulate", "-", "--out", folder.text(), "--json"];
+    let d = json(&stdout(&with_scene(&arguments, scene)));
+    let verdict = |name: &str| d["reactions"][name]["verdict"].clone();
+    assert_eq!(
+        ["left", "right", "pivot"].map(verdict),
+        ["not_unique", "not_unique", "unique"]
+    );
+    let components = &d["reactions"]["left"]["components"];
+    assert_eq!(components["Fx"]["verdict"], "not_unique");
+    assert_eq!(components["Fy"]["verdict"], "unique");
+}
+
 #[test]
 fn simulate_writes_the_files_of_the_contract() {
     let folder = Folder::new("simulate");

@@ -395,3 +395,87 @@ fn robots_of_a_fleet_are_as_fragile_as_one() {
         }
     }
 }
+
+/// A weight between a wall and a slope that is almost as steep: both push with 10/0.0001 N against
+/// each other, and together they carry the weight. A sum of fragile numbers may be fragile, or not.
+const WEDGED: &str = r#"
+scene = { name = "wedged", space = "plane", gravity = [0.0, -10.0] }
+body = [{ name = "weight", mass = 1.0, inertia = 1.0 }]
+joint = [
+    { name = "wall", type = "knife-edge", body = "weight", at = [0.0, 0.0], normal = [1.0, 0.0] },
+    { name = "slope", type = "knife-edge", body = "weight", at = [0.0, 0.0], normal = [1.0, 0.0001] },
+]
+group = [
+    { name = "level", combine = "wall.Fx + slope.Fx" },
+    { name = "skew", combine = "wall.Fx + 2*slope.Fx" },
+    { name = "all", combine = "wall + slope" },
+    { name = "pair", members = ["wall", "slope"] },
+]
+simulate = { t_end = 0.01 }
+"#;
+
+#[test]
+fn groups_are_fragile_by_their_own_numbers() {
+    let folder = Folder::new("wedged");
+    fs::create_dir_all(&folder.0).expect("writable");
+    let path = folder.0.join("wedged.toml");
+    fs::write(&path, WEDGED).expect("writable");
+    let (scene, out) = (path.to_str().expect("UTF-8"), folder.0.join("out"));
+    let out = out.to_str().expect("UTF-8");
+    let analysis = document(&["analyze", scene, "--json"]);
+    let run = document(&["simulate", scene, "--out", out, "--json"]);
+    let at = |name: &str| {
+        let groups = analysis["groups"].as_array().expect("a list");
+        groups.iter().find(|g| g["name"] == name).expect("exists")
+    };
+    for name in ["wall", "slope"] {
+        assert_eq!(run["reactions"][name]["components"]["Fx"]["fragile"], true);
+    }
+    for (name, fragile) in [
+        ("level", false),
+        ("skew", true),
+        ("all", true),
+        ("pair", true),
+    ] {
+        let of_run = &run["groups"][name];
+        assert_eq!(of_run["verdict"], "unique", "{name}");
+        assert_eq!(of_run["fragile"], fragile, "{name}: {of_run:#}");
+        assert!(of_run["sensitivity"].is_number(), "{name}: {of_run:#}");
+        for key in ["fragile", "sensitivity", "hangs_on"] {
+            assert_eq!(of_run[key], at(name)[key], "{name}.{key}");
+        }
+    }
+    let components = run["groups"]["all"]["components"]
+        .as_object()
+        .expect("a sum of wrenches");
+    for (name, component) in components {
+        // Points that are not at one place any more are the arm of a couple.
+        assert_eq!(component["fragile"], name == "T", "{name}: {component:#}");
+    }
+    let sensitivity = &run["groups"]["level"]["sensitivity"];
+    assert!(
+        sensitivity.as_f64().is_some_and(|x| x < 1e-3),
+        "{sensitivity}"
+    );
+    let table = folder.read("out/reactions.csv");
+    let header = table.lines().next().expect("a header");
+    let columns: Vec<&str> = header.split(',').collect();
+    for name in ["level", "skew.fragile", "all.Fx", "all.Fy", "all.T.fragile"] {
+        assert!(columns.contains(&name), "{name}: {header}");
+    }
+    let simulated = said(&["simulate", scene, "--out", out]);
+    let named = "fragile at the start: wall, slope, skew, all, pair.";
+    assert!(simulated.contains(named), "{simulated}");
+    let checked = flat(&said(&["check", scene]));
+    for name in ["`skew`", "`all.T`"] {
+        let sentence = format!("{name} is unique but");
+        assert!(checked.contains(&sentence), "{sentence}: {checked}");
+    }
+    assert!(
+        !checked.contains("`level`") && !checked.contains("`pair`"),
+        "{checked}"
+    );
+    let analyzed = flat(&said(&["analyze", scene]));
+    assert!(analyzed.contains("skew: unique, FRAGILE"), "{analyzed}");
+    assert!(analyzed.contains("level: unique (margin"), "{analyzed}");
+}

@@ -3,6 +3,7 @@
 
 use std::ops::ControlFlow;
 
+use pfaff::model::System;
 use pfaff::prelude::*;
 use pfaff::report::{OutputDirectory, write_json};
 use serde_json::Value;
@@ -45,7 +46,7 @@ fn a_journey_is_the_one_of_the_command() {
     let along_motion = study
         .verdicts_along_motion(Some(1.0), |_| {})
         .expect("it moves");
-    document.answers.along = Some(along_motion.document());
+    along_motion.add_to(&mut document, study.prepared.mechanism.layout());
     assert_eq!(written(&document), stdout(&output));
 }
 

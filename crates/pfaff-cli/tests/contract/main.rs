@@ -10,6 +10,7 @@ mod causes;
 mod chosen;
 mod cold_start;
 mod console;
+mod couplings;
 mod diff;
 mod documents;
 mod equilibrium;

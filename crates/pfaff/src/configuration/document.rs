@@ -36,10 +36,13 @@ impl ConfigurationAnalysis<'_> {
     /// without numbers are reported as a warning in the document, not as an error.
     pub fn document(&self, combine: &[String]) -> Result<AnalysisDocument, StudyError> {
         let groups = self.groups(combine)?;
-        let generic = self.generic();
+        let (generic, generic_verdicts) = self.generic_with_verdicts().unzip();
         let mut document =
             AnalysisDocument::new(self.scene.name(), &self.analysis, generic.as_ref())
                 .with_freedoms(&self.freedoms()?, self.mechanism);
+        if let Some(verdicts) = generic_verdicts.flatten() {
+            document.add_generic_verdicts(&verdicts);
+        }
         document.groups = groups
             .iter()
             .map(|(name, verdict)| GroupDocument::new(name, verdict))
@@ -65,11 +68,13 @@ impl ConfigurationAnalysis<'_> {
         let sensitivities = self.sensitivities()?;
         document.add_sensitivities(&sensitivities, self.mechanism.layout());
         let asked = requests::groups(self.scene, self.mechanism, combine)?.into_iter();
-        let asked = asked.map(|(_, group)| group);
-        let asked: Vec<_> = asked
-            .zip(groups.iter().map(|(_, verdict)| verdict))
-            .collect();
-        self.add_group_sensitivities(&mut document, &asked, &sensitivities)?;
+        let asked: Vec<_> = asked.map(|(_, group)| group).collect();
+        let judged = groups.iter().map(|(_, verdict)| verdict);
+        let pairs: Vec<_> = asked.iter().zip(judged).collect();
+        let found = self.sensitivities_of_groups(&pairs, &sensitivities)?;
+        for (group, found) in document.groups.iter_mut().zip(&found) {
+            group.add_sensitivities(found, self.mechanism.layout());
+        }
         document.warnings.extend(sensitivities.left_out);
         document.warnings.extend(self.scene.cautions());
         document.add_notes(self.mechanism.layout());

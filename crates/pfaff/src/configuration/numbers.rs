@@ -4,7 +4,9 @@
 use model::{ConstraintId, System};
 use report::AnalysisDocument;
 use report::documents::GroupDocument;
-use solvability::{ComponentVerdict, Group, GroupVerdict, ReactionNumber, Sensitivities};
+use solvability::{
+    ComponentVerdict, Group, GroupSensitivities, GroupVerdict, ReactionNumber, Sensitivities,
+};
 
 use super::{ConfigurationAnalysis, requests};
 use crate::error::StudyError;
@@ -71,52 +73,57 @@ impl ConfigurationAnalysis<'_> {
         if let Ok(solution) = self.solution() {
             document = document.with_values(&self.questions.determined(&group, &solution)?);
         }
-        let numbers = self.numbers_of_group(&group, &verdict)?;
-        let found = self.sensitivities_of(&numbers)?;
-        document.add_sensitivities(found, self.mechanism.layout());
+        let found = match &group {
+            Group::Members(_) => {
+                self.sensitivities_of_groups(&[(&group, &verdict)], &self.sensitivities()?)?
+            }
+            _ => self.sensitivities_of_groups(&[(&group, &verdict)], &Sensitivities::default())?,
+        };
+        document.add_sensitivities(&found[0], self.mechanism.layout());
         Ok(document)
     }
 
-    /// Adds the sensitivities of the groups of a document.
-    pub(super) fn add_group_sensitivities(
+    /// How strongly the numbers of the groups of the scene depend on the data, by their names; what
+    /// is not unique, or not known, has no sensitivity. `reactions` are those of
+    /// [`ConfigurationAnalysis::sensitivities`].
+    ///
+    /// # Errors
+    /// [`StudyError::Choice`], and as [`ConfigurationAnalysis::reaction`].
+    pub fn group_sensitivities(
         &self,
-        document: &mut AnalysisDocument,
-        groups: &[(Group, &GroupVerdict)],
         reactions: &Sensitivities,
-    ) -> Result<(), StudyError> {
-        let layout = self.mechanism.layout();
-        for (document, (group, verdict)) in document.groups.iter_mut().zip(groups) {
-            let found = match group {
-                Group::Members(members) if verdict.judgement.verdict.is_unique() => {
-                    let members = members
-                        .iter()
-                        .map(|id: &ConstraintId| reactions.reaction(*id));
-                    members.map(|found| found.cloned()).collect()
-                }
-                _ => {
-                    let numbers = self.numbers_of_group(group, verdict)?;
-                    self.sensitivities_of(&numbers)?
-                }
-            };
-            document.add_sensitivities(found, layout);
-        }
-        Ok(())
+    ) -> Result<Vec<(String, GroupSensitivities)>, StudyError> {
+        let groups = requests::groups(self.scene, self.mechanism, &[])?;
+        // A group of a part that is too large has no verdict here.
+        let judged: Vec<Option<GroupVerdict>> = groups
+            .iter()
+            .map(|(_, group)| self.questions.group(group).ok())
+            .collect();
+        let pairs = groups.iter().zip(&judged);
+        let known = pairs.filter_map(|((_, group), verdict)| Some((group, verdict.as_ref()?)));
+        let known: Vec<_> = known.collect();
+        let mut found = self.sensitivities_of_groups(&known, reactions)?.into_iter();
+        let named = groups.into_iter().zip(&judged);
+        Ok(named
+            .map(|((name, _), verdict)| {
+                let own = verdict.as_ref().and_then(|_| found.next());
+                (name, own.unwrap_or_default())
+            })
+            .collect())
     }
 
-    /// The unique numbers of a group.
-    fn numbers_of_group(
+    /// How strongly the unique numbers of these groups depend on the data.
+    pub(super) fn sensitivities_of_groups(
         &self,
-        group: &Group,
-        verdict: &GroupVerdict,
-    ) -> Result<Vec<ReactionNumber>, StudyError> {
-        let numbers = ReactionNumber::of_group(self.mechanism, group, verdict.about)?;
-        let is_unique = |(k, _): &(usize, _)| match verdict.components.get(*k) {
-            Some(component) => component.judgement.verdict.is_unique(),
-            None => verdict.judgement.verdict.is_unique(),
-        };
-        let numbers = numbers.into_iter().map(|(_, number)| number);
-        let unique = numbers.enumerate().filter(is_unique);
-        Ok(unique.map(|(_, number)| number).collect())
+        groups: &[(&Group, &GroupVerdict)],
+        reactions: &Sensitivities,
+    ) -> Result<Vec<GroupSensitivities>, StudyError> {
+        if self.has_no_velocities() {
+            return Ok(vec![GroupSensitivities::default(); groups.len()]);
+        }
+        let state = (&self.state.q[..], &self.state.v[..]);
+        let analysis = &self.analysis;
+        Ok(analysis.group_sensitivities(self.mechanism, state, groups, reactions)?)
     }
 }
 

@@ -12,8 +12,8 @@ use model::space::norm;
 use model::{Mechanism, System};
 use report::sweep::{Extreme, SweepMotion};
 use scene_codegen::Tape;
-use solvability::Analysis;
 use solvability::analysis::analyse_decided;
+use solvability::{Analysis, ReactionStretches, Stretches};
 
 use crate::error::StudyError;
 use crate::study::Study;
@@ -205,17 +205,20 @@ impl<'s> Watch<'s> {
     }
 
     /// The extremes of what is unique on the whole run: another number depends on a choice.
-    fn determined(&self, summary: &Summary) -> Vec<Extreme> {
-        let is_unique = |k: usize| {
-            let own = summary.verdicts.as_ref();
-            own.is_some_and(|found| found.reactions[k].whole.of_run().is_unique())
-        };
+    fn determined(&self, verdicts: Option<&Stretches>) -> Vec<Extreme> {
+        let space = self.mechanism().space();
         let each = self.reactions.iter().zip(&self.extremes);
-        each.map(|(k, extreme)| match k {
-            Some(k) if is_unique(*k) => *extreme,
-            _ => Extreme::UNKNOWN,
-        })
-        .collect()
+        let of = |(place, extreme): (&Option<usize>, &Extreme)| {
+            let found = place.and_then(|k| verdicts?.reactions.get(k))?;
+            let is_unique = |components: std::ops::Range<usize>| {
+                let names = space.components()[components].iter();
+                let mut tracks = names.filter_map(|name| found.component(name));
+                tracks.all(|track| track.of_run().is_unique())
+            };
+            Some(extreme.only([is_unique(space.forces()), is_unique(space.torques())]))
+        };
+        each.map(|one| of(one).unwrap_or(Extreme::UNKNOWN))
+            .collect()
     }
 
     fn motion(self, summary: &Summary) -> SweepMotion {
@@ -226,10 +229,9 @@ impl<'s> Watch<'s> {
             ..
         } = self.begun;
         let largest = |values: &[f64]| values.iter().fold(0.0, |a, x| f64::max(a, x.abs()));
-        let not_unique = analysis
-            .reactions
-            .iter()
-            .filter(|r| !r.wrench.verdict.is_unique());
+        let verdicts = summary.verdicts.as_ref();
+        let is_open = |r: &&ReactionStretches| !r.whole.of_run().is_unique();
+        let open = |found: &Stretches| found.reactions.iter().filter(is_open).count() as u64;
         SweepMotion {
             method: summary.method.name(),
             t: summary.t,
@@ -246,11 +248,11 @@ impl<'s> Watch<'s> {
             events: summary.events.iter().filter(is_of_motion).count() as u64,
             rank: analysis.decision.rank as u64,
             redundancy: analysis.decision.redundancy as u64,
-            not_unique: not_unique.count() as u64,
+            not_unique: verdicts.map(open),
             fragile: *fragile,
             t_state: self.t_state,
             state: self.state(),
-            extremes: self.determined(summary),
+            extremes: self.determined(verdicts),
         }
     }
 }

@@ -9,6 +9,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use model::Registry;
 use report::{SweepDocument, SweepRow, SweepStatus};
 
+use crate::{Overrides, Study};
+
 use super::{Shard, Sweep, SweepError, SweepOutcome, SweepProgress, SweepSettings, Tables, merge};
 
 /// A point mass on a rod of length 1 m, which passes its lowest point at v = 10⁻⁴ m/s.
@@ -103,7 +105,7 @@ fn a_pendulum_swings_as_its_length_says() {
         );
         assert_eq!(
             (motion.rank, motion.redundancy, motion.not_unique),
-            (2, 0, 0)
+            (2, 0, Some(0))
         );
     }
 }
@@ -125,15 +127,94 @@ simulate = { t_end = 0.1 }
     let motion = row.motion.expect("it stands still");
     assert_eq!(
         (motion.rank, motion.redundancy, motion.not_unique),
-        (3, 1, 2)
+        (3, 1, Some(2))
     );
     for extreme in &motion.extremes {
-        assert!(extreme.force.is_nan() && extreme.force_time.is_nan() && extreme.torque.is_nan());
+        assert!(extreme.force.is_nan() && extreme.force_time.is_nan());
+        // A hinge of the plane has no torque under any load.
+        assert_eq!((extreme.torque, extreme.torque_time), (0.0, 0.0));
     }
     // A reaction that is not requested has no column.
     let named = format!("{beam}output = {{ reactions = [\"right\"] }}\n");
     let sweep = sweep(&registry, &named, &["body.beam.mass=1,2"]);
     assert_eq!(sweep.plan.reactions, ["right"]);
+}
+
+/// Three parallel cranks stand upright at the start and turn: one pivot is two points on lines, and
+/// the horizontal one is unique at the start only.
+const UPRIGHT: &str = r#"
+scene = { name = "upright", space = "plane", gravity = [0.0, -10.0] }
+body = [
+    { name = "one", mass = 1.0, inertia = 0.02, position = [0.0, 0.25], angle = 1.5707963267948966, velocity = [-0.5, 0.0], angular_velocity = 2.0 },
+    { name = "two", mass = 1.0, inertia = 0.02, position = [1.0, 0.25], angle = 1.5707963267948966, velocity = [-0.5, 0.0], angular_velocity = 2.0 },
+    { name = "three", mass = 1.0, inertia = 0.02, position = [2.0, 0.25], angle = 1.5707963267948966, velocity = [-0.5, 0.0], angular_velocity = 2.0 },
+    { name = "coupler", mass = 3.0, inertia = 1.0, position = [1.0, 0.5], velocity = [-1.0, 0.0] },
+]
+joint = [
+    { name = "pivot one", type = "revolute", bodies = ["ground", "one"], at = [0.0, 0.0] },
+    { name = "guide x", type = "point-on-line", body = "two", at = [1.0, 0.0], line = [[1.0, -1.0], [1.0, 1.0]] },
+    { name = "guide y", type = "point-on-line", body = "two", at = [1.0, 0.0], line = [[0.0, 0.0], [2.0, 0.0]] },
+    { name = "pivot three", type = "revolute", bodies = ["ground", "three"], at = [2.0, 0.0] },
+    { name = "tip one", type = "revolute", bodies = ["one", "coupler"], at = [0.0, 0.5] },
+    { name = "tip two", type = "revolute", bodies = ["two", "coupler"], at = [1.0, 0.5] },
+    { name = "tip three", type = "revolute", bodies = ["three", "coupler"], at = [2.0, 0.5] },
+]
+simulate = { t_end = 0.4 }
+"#;
+
+#[test]
+fn verdicts_of_a_row_are_those_of_its_run() {
+    let registry = Registry::standard();
+    let of = |more: &str| {
+        let scene = format!("{UPRIGHT}{more}");
+        let sweep = sweep(&registry, &scene, &["scene.gravity[1]=-10,-5"]);
+        sweep.row(1).motion.expect("it runs")
+    };
+    let study = Study::read("upright.toml", UPRIGHT, &registry, &Overrides::default());
+    let study = study.expect("a scene");
+    let start = study.analyse(0.0, None).expect("a start");
+    assert!(
+        start
+            .verdict("guide x")
+            .expect("exists")
+            .wrench
+            .verdict
+            .is_unique()
+    );
+    let motion = of("");
+    assert_eq!((motion.redundancy, motion.not_unique), (1, Some(7)));
+    assert!(motion.extremes.iter().all(|extreme| extreme.force.is_nan()));
+    // All joints are counted, whichever reactions have columns.
+    let motion = of("output = { reactions = [\"guide x\"] }\n");
+    assert_eq!((motion.not_unique, motion.extremes.len()), (Some(7), 1));
+    // Without reactions there are no verdicts of the run.
+    let motion = of("output = { reactions = false }\n");
+    assert_eq!((motion.not_unique, motion.extremes.len()), (None, 0));
+}
+
+/// A bar that is fixed at one end and held along itself at the other: the force along it is shared,
+/// the torque of the fixed end is not.
+#[test]
+fn force_and_torque_have_numbers_of_their_own() {
+    let scene = r#"
+scene = { name = "bar", space = "plane", gravity = [0.0, -10.0] }
+body = [{ name = "bar", mass = 3.0, inertia = 1.0, position = [0.5, 0.0] }]
+joint = [
+    { name = "wall", type = "fixed", bodies = ["ground", "bar"], at = [0.0, 0.0] },
+    { name = "stop", type = "point-on-line", body = "bar", at = [1.0, 0.0], line = [[1.0, -1.0], [1.0, 1.0]] },
+]
+simulate = { t_end = 0.1 }
+"#;
+    let registry = Registry::standard();
+    let sweep = sweep(&registry, scene, &["body.bar.mass=3,6"]);
+    let motion = sweep.row(2).motion.expect("it stands still");
+    let wall = motion.extremes[0];
+    // 6 kg at 0.5 m.
+    assert!(
+        wall.force.is_nan() && (wall.torque - 30.0).abs() < 1e-12,
+        "{wall:?}"
+    );
+    assert_eq!(motion.not_unique, Some(2));
 }
 
 #[test]

@@ -368,7 +368,8 @@ impl Nominal {
             terms: RowTerms::of(mechanism, s, v, size),
             c,
         };
-        equations.multipliers(decision).ok()
+        let found = equations.multipliers(decision).ok()?;
+        Some(found.as_chosen().to_vec())
     }
 
     /// The numbers of all reactions for these multipliers.

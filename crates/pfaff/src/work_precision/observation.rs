@@ -43,7 +43,6 @@ impl Kind {
 pub struct Observation {
     /// Time (s).
     pub(super) t: f64,
-    pub(super) q: Vec<f64>,
     pub(super) values: [Vec<f64>; Kind::COUNT],
 }
 
@@ -69,7 +68,6 @@ impl Observation {
         Self {
             t,
             values: [space.pose_numbers(bodies), v, a, reactions],
-            q,
         }
     }
 }

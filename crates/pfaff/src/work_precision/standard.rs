@@ -1,11 +1,10 @@
 //! The reference values of runs: values by index and instant, the accuracy of each kind, and their
 //! source.
 
-use model::{Mechanism, System};
-use solvability::analyse;
+use model::Mechanism;
+use solvability::{ReactionStretches, Stretches};
 
 use super::observation::{Observation, reaction_place, units};
-use crate::error::StudyError;
 
 /// Rows and instants of a reference have the same time if they differ by less than this fraction of
 /// it.
@@ -187,26 +186,46 @@ fn is_same_time(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME_TIME * a.abs().max(b.abs())
 }
 
-/// Indices of the components of reactions that are unique at all of these configurations.
-pub(super) fn unique_reactions(
-    run: &[Observation],
-    mechanism: &Mechanism,
-) -> Result<Vec<usize>, StudyError> {
-    let groups = &mechanism.layout().groups;
-    let mut unique: Vec<(usize, usize)> = groups
-        .iter()
-        .enumerate()
-        .flat_map(|(g, group)| group.components().into_iter().map(move |c| (g, c)))
-        .collect();
-    for row in run {
-        let analysis = analyse(mechanism, row.t, &row.q)?;
-        unique.retain(|&(g, c)| {
-            let components = &analysis.reactions[g].components;
-            let name = mechanism.space().components()[c];
-            let found = components.iter().find(|v| v.name == name);
-            found.is_some_and(|v| v.judgement.verdict.is_unique())
-        });
+/// Indices of the components of reactions that are unique on all stretches of a run, also of the
+/// named components of definitions.
+pub(super) fn unique_reactions(verdicts: &Stretches, mechanism: &Mechanism) -> Vec<usize> {
+    let space = mechanism.space();
+    let of_reaction = |found: &ReactionStretches| -> Vec<usize> {
+        let unique = found.components.iter();
+        let unique = unique.filter(|(_, track)| track.of_run().is_unique());
+        let component = |name| space.component(name).unwrap_or(space.n_v());
+        let place = |name| reaction_place(mechanism, found.id.0, component(name));
+        unique.map(|(name, _)| place(name)).collect()
+    };
+    verdicts.reactions.iter().flat_map(of_reaction).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use model::System;
+    use solvability::{Verdict, VerdictTrack};
+
+    use super::*;
+    use crate::Study;
+
+    /// A number is compared if it is unique on the whole run, whatever holds at its start.
+    #[test]
+    fn only_what_is_unique_on_the_run_is_compared() {
+        let mut d = model::Description::new("sleigh");
+        let body = d.body(model::Body::new("sleigh", 1.0, 1.0));
+        let blade = joints::KnifeEdge {
+            s: [0.0; 2],
+            normal: joints::Direction::Y,
+        };
+        d.joint("blade", &[body], blade);
+        let study = Study::build(d).expect("a study");
+        let mechanism = &study.prepared.mechanism;
+        let mut verdicts = Stretches::unique(mechanism, [0.0, 1.0], &[]);
+        // Fx, Fy and N of a blade; it has no torque.
+        assert_eq!(unique_reactions(&verdicts, mechanism), [0, 1, 3]);
+        verdicts.reactions[0].components[1].1 =
+            VerdictTrack::constant([0.0, 1.0], Verdict::NotUnique);
+        assert_eq!(unique_reactions(&verdicts, mechanism), [0, 3]);
+        assert_eq!(mechanism.layout().groups.len(), 1);
     }
-    let place = |(g, c): (usize, usize)| reaction_place(mechanism, g, c);
-    Ok(unique.into_iter().map(place).collect())
 }

@@ -15,13 +15,13 @@ use model::{ConstraintId, Layout, Mechanism, SpaceKind};
 use reaction::components;
 use serde::Serialize;
 use solvability::{
-    Analysis, Dependency, Explanation, FrameVerdict, Freedoms, Generic, Mixing, MomentVerdict,
-    NoFiniteReaction, PartAnalysis, ReactionVerdict, Sensitivities, Sensitivity,
+    Analysis, Dependency, Explanation, FrameVerdict, Freedoms, Generic, GenericVerdict, Mixing,
+    MomentVerdict, NoFiniteReaction, PartAnalysis, ReactionVerdict, Sensitivities, Sensitivity,
 };
 
 pub use along::{
-    AlongDocument, ContinuationDocument, DifferenceDocument, GenericVerdictsDocument,
-    NamedVerdictDocument, PassageDocument, StretchDocument,
+    AlongDocument, AlongReactionDocument, ContinuationDocument, DifferenceDocument,
+    GenericRankDocument, PassageDocument, StretchDocument,
 };
 pub use choices::{DistributionDocument, ValueDocument, ValuesDocument};
 pub use data::DataDocument;
@@ -33,7 +33,7 @@ pub use reaction::{
     ReactionDocument, RowDocument,
 };
 
-use super::{FreedomsDocument, VerdictDocument, from_one};
+use super::{FreedomsDocument, from_one};
 
 /// Ranks and verdicts of one configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -257,6 +257,14 @@ impl AnalysisDocument {
     pub fn with_freedoms(mut self, freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
         self.ranks.freedoms = FreedomsDocument::new(freedoms, mechanism);
         self
+    }
+
+    /// Adds the verdicts that hold at nearly all configurations, one for each joint and drive:
+    /// those of the stretches of the motion that contain the instant, or at other configurations.
+    pub fn add_generic_verdicts(&mut self, generic: &[GenericVerdict]) {
+        for (reaction, generic) in self.reactions.iter_mut().zip(generic) {
+            reaction.add_generic(generic);
+        }
     }
 
     /// Adds how strongly unique components and directions of reactions depend on the data. The

@@ -2,17 +2,17 @@
 
 use std::fmt;
 
-use dynamics::{ComponentSummary, Event, FORMULATION, MotionError, Plan, Summary};
-use model::System;
+use dynamics::{ComponentSummary, Event, FORMULATION, MotionError, Plan, ReactionImpulse, Summary};
 use model::codes::Code;
 use model::words::{listed, rounded};
+use model::{Layout, System};
 use serde::Serialize;
 use solvability::{Freedoms, ReactionVerdict, Sensitivities};
 
 use super::plan::{short, short_of};
 use super::{
-    DataDocument, FreedomsDocument, MisfitDocument, Named, RunGroupDocument, RunReactionDocument,
-    RunVerdicts, SpecialDocument, SpreadDocument, from_one,
+    DataDocument, FreedomsDocument, ImpulseDocument, MisfitDocument, Named, RunGroupDocument,
+    RunReactionDocument, RunVerdicts, SpecialDocument, SpreadDocument, from_one,
 };
 
 /// A run and its results.
@@ -176,6 +176,10 @@ pub struct EventDocument {
     pub deleted_rows: Vec<usize>,
     /// Description.
     pub text: String,
+    /// The impulses of joints and drives where velocities jump, by name and component, with the
+    /// verdicts at this instant.
+    #[serde(skip_serializing_if = "Named::is_empty")]
+    pub impulses: Named<ImpulseDocument>,
 }
 
 /// The choice by which the numbers of a table were made, on an interval of time.
@@ -312,7 +316,7 @@ impl RunDocument {
             (r.name.clone(), document)
         });
         let reactions = Named(reactions.collect());
-        let groups = verdicts.map_or_else(|| Named(Vec::new()), RunVerdicts::groups);
+        let groups = verdicts.map_or_else(|| Named(Vec::new()), |v| v.groups(mechanism.layout()));
         let has_choice = verdicts.is_some_and(RunVerdicts::has_choice);
         Self {
             method: run.summary.method.name(),
@@ -340,10 +344,14 @@ impl RunDocument {
             data: run.data,
             misfits: summary.misfits.iter().map(Into::into).collect(),
             spread: run.spread.cloned(),
-            events: summary.events.iter().map(Into::into).collect(),
+            events: (summary.events.iter())
+                .map(|event| EventDocument::new(event, mechanism.layout()))
+                .collect(),
             reactions,
             groups,
-            special: verdicts.map_or_else(Vec::new, |v| v.special(mechanism.layout())),
+            special: verdicts.map_or_else(Vec::new, |v| {
+                SpecialDocument::all(v.stretches, v.groups, mechanism.layout())
+            }),
             choice: if has_choice {
                 ChoiceDocument::of(run)
             } else {
@@ -380,8 +388,13 @@ impl ComponentRunDocument {
     }
 }
 
-impl From<&Event> for EventDocument {
-    fn from(event: &Event) -> Self {
+impl EventDocument {
+    /// The document of an event.
+    #[must_use]
+    pub fn new(event: &Event, layout: &Layout) -> Self {
+        let name = |impulse: &ReactionImpulse| layout.groups[impulse.id.0].name.clone();
+        let impulses = event.impulses.iter();
+        let impulses = impulses.map(|impulse| (name(impulse), impulse.into()));
         Self {
             time: event.time,
             kind: event.kind.name(),
@@ -389,6 +402,7 @@ impl From<&Event> for EventDocument {
             redundancy_after: event.redundancy_after,
             deleted_rows: from_one(&event.dropped),
             text: event.text.clone(),
+            impulses: Named(impulses.collect()),
         }
     }
 }

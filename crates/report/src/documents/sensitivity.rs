@@ -2,7 +2,7 @@
 
 use model::{ConstraintId, Layout};
 use serde::Serialize;
-use solvability::{Sensitivities, Sensitivity};
+use solvability::{GroupSensitivities, Sensitivities, Sensitivity};
 
 /// How strongly a unique reaction, component, direction, sum or moment depends on the data, and
 /// whether it is fragile.
@@ -47,13 +47,35 @@ impl SensitivityDocument {
         }
     }
 
-    /// The larger of two.
+    /// The sensitivity of a group with this name: the largest of its numbers, which is named if
+    /// there are several.
     #[must_use]
-    pub(super) fn or_larger(self, other: &Self) -> Self {
-        if other.sensitivity > self.sensitivity {
-            other.clone()
-        } else {
-            self
+    pub fn of_group(found: &GroupSensitivities, name: &str, layout: &Layout) -> Self {
+        let whole = found.whole.as_ref();
+        let mut numbers = found.numbers.iter();
+        match numbers.find(|(_, s)| Some(s) == whole) {
+            Some((number, _)) => Self::of_group_number(found, name, number, layout),
+            None => Self::of_number(whole, name, layout),
+        }
+    }
+
+    /// The sensitivity of a number of a group with this name: the sum, or a component.
+    #[must_use]
+    pub fn of_group_number(
+        found: &GroupSensitivities,
+        group: &str,
+        number: &str,
+        layout: &Layout,
+    ) -> Self {
+        let name = Self::name_in_group(group, number);
+        Self::of_number(found.number(number), &name, layout)
+    }
+
+    /// The name of a number of a group in sentences.
+    pub(super) fn name_in_group(group: &str, number: &str) -> String {
+        match number {
+            "sum" => group.to_owned(),
+            component => format!("{group}.{component}"),
         }
     }
 }

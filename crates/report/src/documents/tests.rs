@@ -165,19 +165,19 @@ fn analysis_has_the_keys_of_the_contract() {
         "generic": null,
         "reactions": [
             { "name": "upper", "type": "revolute", "rows": [1, 2],
-              "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false, "multipliers": "not_unique",
+              "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "generic_verdict": null, "sensitivity": null, "fragile": false, "multipliers": "not_unique",
               "row_verdicts": [ { "row": 1, "verdict": "unique", "margin": 0.0, "within_tolerance": false },
                                 { "row": 2, "verdict": "not_unique", "margin": 0.5, "within_tolerance": false } ],
-              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0, "within_tolerance": false, "sensitivity": null, "fragile": false },
-                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false } ],
+              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0, "within_tolerance": false, "generic_verdict": null, "sensitivity": null, "fragile": false },
+                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "generic_verdict": null, "sensitivity": null, "fragile": false } ],
               "unique_directions": [[1.0, 0.0]],
               "settled": null, "explanation": null, "free_directions": [] },
             { "name": "lower \"2\"", "type": "revolute", "rows": [3, 4],
-              "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false, "multipliers": "not_unique",
+              "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "generic_verdict": null, "sensitivity": null, "fragile": false, "multipliers": "not_unique",
               "row_verdicts": [ { "row": 3, "verdict": "unique", "margin": 0.0, "within_tolerance": false },
                                 { "row": 4, "verdict": "not_unique", "margin": 0.5, "within_tolerance": false } ],
-              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0, "within_tolerance": false, "sensitivity": null, "fragile": false },
-                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false } ],
+              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0, "within_tolerance": false, "generic_verdict": null, "sensitivity": null, "fragile": false },
+                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "generic_verdict": null, "sensitivity": null, "fragile": false } ],
               "unique_directions": [[1.0, 0.0]],
               "settled": null, "explanation": null, "free_directions": [] } ],
         "groups": [],
@@ -393,7 +393,7 @@ fn summary_has_the_keys_of_the_contract() {
     stretches.reactions[1].components[1].1 =
         VerdictTrack::of([stretch(0.0, 2.0, Verdict::NotUnique)]);
     stretches.sum_up(&[]);
-    let columns = columns_of_reactions(&prepared.mechanism, &Selection::All, &[], |_, _| false);
+    let columns = columns_of_reactions(&prepared.mechanism, &Selection::All, &[], |_| false);
     let columns = columns.expect("it exists");
     let peak = Peak {
         value: -3.5,
@@ -467,6 +467,7 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
             redundancy_after: 1,
             dropped: vec![1],
             text: "row 2 for row 4".into(),
+            impulses: Vec::new(),
         }],
         dropped: vec![
             DroppedRows::new(0.0, vec![3]),
@@ -477,7 +478,7 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     let error = MotionError::from(DropError::NotRedundant);
     let sensitivities = Sensitivities::default();
     let stretches = Stretches::unique(&prepared.mechanism, [0.0, 1.5], &[]);
-    let columns = columns_of_reactions(&prepared.mechanism, &Selection::All, &[], |_, _| false);
+    let columns = columns_of_reactions(&prepared.mechanism, &Selection::All, &[], |_| false);
     let columns = columns.expect("all of them");
     let files = ["trajectory.csv", "summary.json"].map(str::to_owned);
     let run = |ending, stretches| Run {

@@ -1,10 +1,12 @@
 //! Verdicts of a run: of joints and drives, of their components and of groups, by stretches of
 //! time, with the peaks of what is determined.
 
+use model::words::rounded;
 use model::{Layout, System};
 use serde::Serialize;
 use solvability::{
-    Group, ReactionStretches, ReactionVerdict, Sensitivities, Stretches, Verdict, VerdictTrack,
+    GroupSensitivities, GroupStretches, ReactionStretches, ReactionVerdict, Sensitivities,
+    Sensitivity, Stretches, Value, Verdict, VerdictTrack,
 };
 
 use super::{Named, SensitivityDocument, VerdictDocument};
@@ -23,6 +25,17 @@ pub struct TrackDocument {
     /// The intervals of time on which it is determined (s), where only some are.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub determined: Vec<[f64; 2]>,
+}
+
+impl TrackDocument {
+    /// The intervals on which it is determined as text, as `0 … 1 s`; empty if there are none, or
+    /// if it is determined throughout.
+    #[must_use]
+    pub fn on_intervals(&self) -> String {
+        let each = self.determined.iter();
+        let each = each.map(|[from, to]| format!("{} … {} s", rounded(*from), rounded(*to)));
+        each.collect::<Vec<_>>().join(", ")
+    }
 }
 
 impl From<&VerdictTrack> for TrackDocument {
@@ -89,8 +102,9 @@ pub struct RunNumberDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PeakDocument {
-    /// The value with its sign (N, N·m).
-    pub value: f64,
+    /// The value with its sign (N, N·m), and its verdict there.
+    #[serde(flatten)]
+    pub value: Value,
     /// The first time at which it occurs (s).
     pub time: f64,
     /// The intervals on which the number is determined (s).
@@ -104,6 +118,9 @@ pub struct RunGroupDocument {
     /// The verdict over the run.
     #[serde(flatten)]
     pub of_run: TrackDocument,
+    /// How strongly it depends on the data at the start: the largest of its numbers.
+    #[serde(flatten)]
+    pub data: SensitivityDocument,
     /// The components of a sum of wrenches.
     #[serde(skip_serializing_if = "Named::is_empty")]
     pub components: Named<RunNumberDocument>,
@@ -132,8 +149,9 @@ pub struct SpecialDocument {
 pub struct RunVerdicts<'a> {
     /// Its verdicts.
     pub stretches: &'a Stretches,
-    /// The groups of the scene, with their names.
-    pub groups: &'a [(String, Group)],
+    /// The groups of the scene by name, and how strongly their numbers depend on the data at the
+    /// start.
+    pub groups: &'a [(String, GroupSensitivities)],
     /// Columns of its table, and the peaks of the determined numbers in each.
     pub columns: &'a [ReactionColumn],
     /// One for each column.
@@ -141,21 +159,32 @@ pub struct RunVerdicts<'a> {
 }
 
 impl RunVerdicts<'_> {
-    fn peak(&self, quantity: Quantity) -> Option<PeakDocument> {
+    fn peak(&self, quantity: Quantity, known: Option<&Sensitivity>) -> Option<PeakDocument> {
         let k = self.columns.iter().position(|c| c.quantity == quantity)?;
         let peak = self.peaks.get(k)?.as_ref()?;
+        let mut value = Value::unique(peak.value);
+        value.add_sensitivity(known.cloned());
         Some(PeakDocument {
-            value: peak.value,
+            value,
             time: peak.time,
             over: peak.over.clone(),
         })
     }
 
-    fn number(&self, quantity: Quantity, track: &VerdictTrack) -> RunNumberDocument {
+    /// A number of the name that stands in sentences. The data of the start say nothing of it where
+    /// it is determined at that instant only.
+    fn number(
+        &self,
+        quantity: Quantity,
+        track: &VerdictTrack,
+        known: Option<&Sensitivity>,
+        (name, layout): (&str, &Layout),
+    ) -> RunNumberDocument {
+        let known = known.filter(|_| track.at(self.stretches.extent[0]).is_unique());
         RunNumberDocument {
             of_run: track.into(),
-            data: SensitivityDocument::default(),
-            peak: self.peak(quantity),
+            data: SensitivityDocument::of_number(known, name, layout),
+            peak: self.peak(quantity, known),
         }
     }
 
@@ -169,10 +198,9 @@ impl RunVerdicts<'_> {
         let own = found.components.iter();
         let own = own.map(|(name, track)| {
             let known = sensitivities.component(found.id, name);
-            let number = RunNumberDocument {
-                data: SensitivityDocument::of_number(known, &format!("{owner}.{name}"), layout),
-                ..self.number(Quantity::Component(found.id, name), track)
-            };
+            let quantity = Quantity::Component(found.id, name);
+            let full_name = format!("{owner}.{name}");
+            let number = self.number(quantity, track, known, (&full_name, layout));
             ((*name).to_owned(), number)
         });
         Named(own.collect())
@@ -186,48 +214,64 @@ impl RunVerdicts<'_> {
     }
 
     /// The groups by name.
-    pub(super) fn groups(&self) -> Named<RunGroupDocument> {
+    pub(super) fn groups(&self, layout: &Layout) -> Named<RunGroupDocument> {
         let all = self.groups.iter().zip(&self.stretches.groups).enumerate();
-        let document = |(k, ((name, _), found)): (usize, (&(String, Group), _))| {
-            let found: &solvability::GroupStretches = found;
-            let numbers = found.numbers.iter();
-            let numbers: Vec<(String, RunNumberDocument)> = numbers
-                .map(|(name, track)| {
-                    let quantity = Quantity::Group(k, name);
-                    ((*name).to_owned(), self.number(quantity, track))
-                })
-                .collect();
-            let is_sum = numbers.len() == 1;
-            let peak = numbers.first().filter(|_| is_sum);
-            let peak = peak.and_then(|(_, number)| number.peak.clone());
-            let document = RunGroupDocument {
-                of_run: (&found.whole).into(),
-                peak,
-                components: Named(if is_sum { Vec::new() } else { numbers }),
-            };
-            (name.clone(), document)
+        let document = |(k, ((name, known), found)): (usize, (&(String, _), _))| {
+            (name.clone(), self.group(k, (name, known), found, layout))
         };
         Named(all.map(document).collect())
     }
 
+    fn group(
+        &self,
+        k: usize,
+        (name, known): (&str, &GroupSensitivities),
+        found: &GroupStretches,
+        layout: &Layout,
+    ) -> RunGroupDocument {
+        let numbers = found.numbers.iter().map(|(number, track)| {
+            let full_name = SensitivityDocument::name_in_group(name, number);
+            let quantity = Quantity::Group(k, number);
+            let known = known.number(number);
+            let document = self.number(quantity, track, known, (&full_name, layout));
+            ((*number).to_owned(), document)
+        });
+        let numbers: Vec<(String, RunNumberDocument)> = numbers.collect();
+        let is_sum = numbers.len() == 1;
+        let peak = numbers.first().filter(|_| is_sum);
+        RunGroupDocument {
+            of_run: (&found.whole).into(),
+            data: SensitivityDocument::of_group(known, name, layout),
+            peak: peak.and_then(|(_, number)| number.peak.clone()),
+            components: Named(if is_sum { Vec::new() } else { numbers }),
+        }
+    }
+}
+
+impl SpecialDocument {
     /// The instants at which another verdict holds than on their stretch, in the order of time.
-    pub(super) fn special(&self, layout: &Layout) -> Vec<SpecialDocument> {
+    /// The names of the groups are given.
+    pub(super) fn all<T>(
+        stretches: &Stretches,
+        groups: &[(String, T)],
+        layout: &Layout,
+    ) -> Vec<Self> {
         let mut all = Vec::new();
         let mut add = |owner: &str, component: Option<&'static str>, track: &VerdictTrack| {
-            all.extend(track.special().iter().map(|special| SpecialDocument {
+            all.extend(track.special().iter().map(|special| Self {
                 time: special.time,
                 name: owner.to_owned(),
                 component,
                 verdict: special.verdict.word(),
             }));
         };
-        for found in &self.stretches.reactions {
+        for found in &stretches.reactions {
             let owner = &layout.groups[found.id.0].name;
             for (name, track) in &found.components {
                 add(owner, Some(name), track);
             }
         }
-        for ((owner, _), found) in self.groups.iter().zip(&self.stretches.groups) {
+        for ((owner, _), found) in groups.iter().zip(&stretches.groups) {
             for (name, track) in &found.numbers {
                 add(owner, (*name != "sum").then_some(name), track);
             }

@@ -91,11 +91,8 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
         let determined: Vec<(Option<&str>, Option<Peak>)> = determined
             .filter_map(|(name, number)| {
                 let peak = number.peak.as_ref()?;
-                let value = if peak.value.abs() <= noise {
-                    0.0
-                } else {
-                    peak.value
-                };
+                let value = peak.value.determined()?;
+                let value = if value.abs() <= noise { 0.0 } else { value };
                 let peak = Peak {
                     value,
                     t: peak.time,

@@ -29,8 +29,8 @@ impl SweepStatus {
 }
 
 /// Largest |F| and |T| of a joint or drive over the written rows of a run, each with the first time
-/// at which it occurs (s). NaN if the reaction is not unique: such a number would depend on a
-/// choice.
+/// at which it occurs (s). NaN if a component of the force or of the torque is not unique on the
+/// whole run: such a number would depend on a choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extreme {
     /// Largest |F| (N).
@@ -51,6 +51,19 @@ impl Extreme {
         torque: f64::NAN,
         torque_time: f64::NAN,
     };
+
+    /// The same without the force, or without the torque, if they are not determined.
+    #[must_use]
+    pub fn only(self, [force, torque]: [bool; 2]) -> Self {
+        let mut kept = Self::UNKNOWN;
+        if force {
+            (kept.force, kept.force_time) = (self.force, self.force_time);
+        }
+        if torque {
+            (kept.torque, kept.torque_time) = (self.torque, self.torque_time);
+        }
+        kept
+    }
 
     /// Takes a value at a time into account; NaN is ignored.
     pub fn include(&mut self, t: f64, force: f64, torque: f64) {
@@ -97,9 +110,10 @@ pub struct SweepMotion {
     pub rank: u64,
     /// Degree of redundancy at the start.
     pub redundancy: u64,
-    /// Number of joints and drives whose reaction is not unique at the start, or undecided.
-    pub not_unique: u64,
-    /// Number of joints and drives whose reaction is unique at the start, but fragile.
+    /// Number of joints and drives whose reaction is not unique on the run, or undecided; `None` if
+    /// no reaction is requested: then the run has no verdicts.
+    pub not_unique: Option<u64>,
+    /// Number of joints and drives with a component that is unique at the start, but fragile.
     pub fragile: u64,
     /// Time of the last written state (s); the end of a run that is done.
     pub t_state: f64,
@@ -128,16 +142,16 @@ pub struct SweepRow {
 /// Columns of a run that began, with their values.
 type Columns<T, const N: usize> = [(&'static str, fn(&SweepMotion) -> T); N];
 
-const COUNTS: Columns<u64, 9> = [
-    ("steps", |m| m.steps),
-    ("rejected", |m| m.rejected),
-    ("evaluations", |m| m.evaluations),
-    ("projections", |m| m.projections),
-    ("events", |m| m.events),
-    ("rank", |m| m.rank),
-    ("redundancy", |m| m.redundancy),
+const COUNTS: Columns<Option<u64>, 9> = [
+    ("steps", |m| Some(m.steps)),
+    ("rejected", |m| Some(m.rejected)),
+    ("evaluations", |m| Some(m.evaluations)),
+    ("projections", |m| Some(m.projections)),
+    ("events", |m| Some(m.events)),
+    ("rank", |m| Some(m.rank)),
+    ("redundancy", |m| Some(m.redundancy)),
     ("not_unique", |m| m.not_unique),
-    ("fragile", |m| m.fragile),
+    ("fragile", |m| Some(m.fragile)),
 ];
 const NUMBERS: Columns<f64, 7> = [
     ("seconds", |m| m.seconds),
@@ -190,7 +204,7 @@ impl SweepPlan {
         cells.push(Cell::line(&row.error));
         cells.push(Cell::line(motion.map_or("", |m| m.method)));
         cells.push(number(|m| m.t));
-        cells.extend(COUNTS.map(|(_, of)| Cell::Count(motion.map(of))));
+        cells.extend(COUNTS.map(|(_, of)| Cell::Count(motion.and_then(of))));
         cells.extend(NUMBERS.map(|(_, of)| number(of)));
         match motion {
             Some(m) => {

@@ -104,7 +104,7 @@ fn row(run: u64) -> SweepRow {
             events: 0,
             rank: 2,
             redundancy: 0,
-            not_unique: 0,
+            not_unique: Some(0),
             fragile: 0,
             t_state: 1.0,
             state: vec![0.1 + 0.2, -1e300, x, 1.0 / x, f64::NAN, f64::INFINITY],

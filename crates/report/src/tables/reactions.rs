@@ -123,31 +123,31 @@ pub fn columns_of_reactions(
     mechanism: &Mechanism,
     selection: &Selection,
     groups: &[(String, Group)],
-    is_fragile: impl Fn(ConstraintId, &str) -> bool,
+    is_fragile: impl Fn(&Quantity) -> bool,
 ) -> Result<Vec<ReactionColumn>, TableError> {
     let mut columns = Vec::new();
     for k in selection.places(mechanism)? {
         let id = ConstraintId(k);
         let own = reaction_columns(mechanism, k).into_iter();
-        columns.extend(own.map(|column| ReactionColumn {
-            quantity: Quantity::Component(id, column.number),
-            fragile: is_fragile(id, column.number),
-            column,
-        }));
+        columns.extend(own.map(|column| (Quantity::Component(id, column.number), column)));
     }
     for (k, (name, group)) in groups.iter().enumerate() {
         let numbers = group.number_names(mechanism.space()).iter();
-        columns.extend(numbers.map(|number| ReactionColumn {
-            column: Column {
+        columns.extend(numbers.map(|number| {
+            let column = Column {
                 owner: name.clone(),
                 kind: "group",
                 number,
-            },
-            quantity: Quantity::Group(k, number),
-            fragile: false,
+            };
+            (Quantity::Group(k, number), column)
         }));
     }
-    Ok(columns)
+    let column = |(quantity, column): (Quantity, Column)| ReactionColumn {
+        fragile: is_fragile(&quantity),
+        column,
+        quantity,
+    };
+    Ok(columns.into_iter().map(column).collect())
 }
 
 /// `t`, then for each joint and drive `<name>.Fx, .Fy, .T`, in space `.Fx, .Fy, .Fz, .Tx, .Ty,

@@ -8,8 +8,8 @@ use model::{
 use solvability::{Chosen, Group, Stretches, Term, Verdict, VerdictStretch, VerdictTrack};
 
 use super::{
-    ReactionTable, Selection, TableError, TrajectoryTable, columns_of_reactions, write_chosen,
-    write_determined,
+    Quantity, ReactionTable, Selection, TableError, TrajectoryTable, columns_of_reactions,
+    write_chosen, write_determined,
 };
 
 /// A driven wheel carrier with a knife edge, and names that need quotes.
@@ -47,7 +47,7 @@ fn carrier() -> Mechanism {
 
 /// A table of all numbers of these reactions.
 fn table(mechanism: &Mechanism, selection: &Selection) -> ReactionTable<Vec<u8>> {
-    let columns = columns_of_reactions(mechanism, selection, &[], |_, _| false).expect("exist");
+    let columns = columns_of_reactions(mechanism, selection, &[], |_| false).expect("exist");
     ReactionTable::new("choice.csv", Vec::new(), mechanism, columns).expect("writes")
 }
 
@@ -109,7 +109,10 @@ fn cells_are_empty_where_nothing_is_determined() {
     };
     let groups = [("twice".to_owned(), Group::Combination(vec![term("N")]))];
     let only = Selection::Names(vec!["blade".into()]);
-    let is_fragile = |_, name: &str| name == "Fy";
+    let is_fragile = |quantity: &Quantity| match quantity {
+        Quantity::Component(_, name) => *name == "Fy",
+        Quantity::Group(k, name) => (*k, *name) == (0, "sum"),
+    };
     let columns = columns_of_reactions(&carrier, &only, &groups, is_fragile).expect("exist");
     let mut table =
         ReactionTable::new("choice.csv", Vec::new(), &carrier, columns).expect("writes");
@@ -128,7 +131,7 @@ fn cells_are_empty_where_nothing_is_determined() {
     let mut determined = Vec::new();
     let has_empty = write_determined(&all[..], &mut determined, &columns, &stretches);
     assert!(has_empty.expect("writes"));
-    let expected = "t,blade.Fx,blade.Fy.fragile,blade.T,blade.N,twice\n\
+    let expected = "t,blade.Fx,blade.Fy.fragile,blade.T,blade.N,twice.fragile\n\
                     0.0,,0.5,-3.0,8.0,16.0\n\
                     1.0,3.0,0.5,-3.0,8.0,\n\
                     2.0,3.0,0.5,-3.0,8.0,17.0\n";
@@ -168,7 +171,7 @@ fn selected_reactions_keep_the_order_of_rows() {
 #[test]
 fn unknown_names_and_foreign_rows_are_refused() {
     let names = Selection::Names(vec!["pin".into(), "wheel".into()]);
-    let Err(error) = columns_of_reactions(&carrier(), &names, &[], |_, _| false) else {
+    let Err(error) = columns_of_reactions(&carrier(), &names, &[], |_| false) else {
         panic!("there is no `wheel`");
     };
     assert_eq!(

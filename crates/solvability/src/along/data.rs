@@ -1,29 +1,44 @@
 //! Results of the verdicts along a motion, and the errors if there are none.
 
+use model::StartError;
 use model::codes::Code;
-use model::{RowLabel, StartError};
 use rank::Doubt;
 
-use crate::analysis::Analysis;
 use crate::error::AnalysisError;
 use crate::second_order::Continuation;
 use crate::state::StateError;
+use crate::stretches::Stretches;
 use crate::verdict::Verdict;
 
 /// Verdicts along a motion.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Along {
-    /// The verdicts that hold almost everywhere, at an instant at which they do.
-    pub generic: Analysis,
-    /// Stretches of time with other verdicts, in the order of time.
+    /// The verdicts on joints and drives, by stretches of time, with the instants at which others
+    /// hold.
+    pub verdicts: Stretches,
+    /// The rank that holds almost everywhere.
+    pub generic: GenericRank,
+    /// Stretches of time with another rank, in the order of time.
     pub stretches: Vec<Stretch>,
-    /// Instants at which something differs, in the order of time.
+    /// Singular configurations, in the order of time.
     pub passages: Vec<Passage>,
 }
 
-/// A stretch of the motion, between break times, on which other verdicts hold than on the rest.
-#[derive(Clone, Debug)]
+/// The rank that holds almost everywhere on a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct GenericRank {
+    /// An instant at which it holds (s).
+    pub time: f64,
+    /// Rank of C.
+    pub rank: usize,
+    /// Degree of redundancy.
+    pub redundancy: usize,
+}
+
+/// A stretch of the motion, between break times, with another rank than the rest.
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Stretch {
     /// Time at which it begins (s).
@@ -32,13 +47,11 @@ pub struct Stretch {
     pub to: f64,
     /// Degree of redundancy on this stretch.
     pub redundancy: usize,
-    /// Verdicts that differ from the generic ones.
-    pub differences: Vec<Difference>,
     /// Description of the stretch as text.
     pub text: String,
 }
 
-/// An instant at which something differs.
+/// An instant at which the configuration is singular, or nearly so.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Passage {
@@ -46,10 +59,9 @@ pub struct Passage {
     pub time: f64,
     /// The kind of the event.
     pub kind: PassageKind,
-    /// First and last time at which the smallest non-zero singular value is below 10⁻³; `None` if
-    /// it is not.
-    pub nearly_singular: Option<[f64; 2]>,
-    /// Verdicts that differ from the generic ones at this instant.
+    /// First and last time at which the smallest non-zero singular value is below 10⁻³.
+    pub nearly_singular: [f64; 2],
+    /// Verdicts that differ from those of the stretch that contains the instant.
     pub differences: Vec<Difference>,
     /// Description of the passage as text.
     pub text: String,
@@ -76,8 +88,6 @@ pub enum PassageKind {
         /// The singular values and the tolerance.
         doubt: Doubt,
     },
-    /// Only verdicts change; the rank does not.
-    Verdicts,
 }
 
 /// One verdict that differs.
@@ -86,23 +96,12 @@ pub enum PassageKind {
 pub struct Difference {
     /// Name of the joint or drive.
     pub reaction: String,
-    /// The part of the reaction that the verdict belongs to.
-    pub part: Part,
-    /// Verdict almost everywhere.
+    /// The component of the reaction; `None` for the whole reaction.
+    pub component: Option<&'static str>,
+    /// Verdict on the stretch that contains the instant.
     pub generic: Verdict,
-    /// Verdict at this instant or on this stretch.
+    /// Verdict at this instant.
     pub here: Verdict,
-}
-
-/// The part of a reaction that a verdict belongs to.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Part {
-    /// The whole reaction.
-    Wrench,
-    /// One component of it.
-    Component(&'static str),
-    /// The multiplier of one row.
-    Row(RowLabel),
 }
 
 /// Reason why the verdicts along a motion cannot be computed.

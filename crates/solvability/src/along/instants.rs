@@ -1,20 +1,19 @@
-//! Instants at which a reaction is unique that is generically not unique, while the rank stays the
-//! same: its margin falls to zero and rises again.
+//! Instants at which a component is unique that is not unique on its stretch, while the rank stays
+//! the same: its margin falls to zero and rises again.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-use super::compare::{differences, verdicts};
-use super::data::{AlongError, Passage, PassageKind, Stretch};
+use super::data::{AlongError, Passage, Stretch};
 use super::passages::local_minima;
 use super::path::{Path, Sample};
-use super::{search, words};
-use crate::analysis::Analysis;
+use super::search;
 use crate::limits::FINER;
 use crate::state::State;
-use crate::verdict::Verdict;
+use crate::stretches::{Stretches, VerdictTrack};
+use crate::verdict::{Judgement, Verdict};
 
-/// Margins of all verdicts at the times that have been asked for: searches for several reactions
+/// Margins of all components at the times that have been asked for: searches for several components
 /// often ask for the same ones.
 #[derive(Default)]
 struct Margins {
@@ -23,129 +22,126 @@ struct Margins {
 }
 
 impl Margins {
-    /// The margin of a verdict; all analyses have the same number of them.
+    /// The margin of a component, by its place among all.
     fn of<F: FnMut(f64) -> State>(
         &mut self,
         path: &mut Path<'_, F>,
         t: f64,
-        verdict: usize,
+        component: usize,
     ) -> Result<f64, AlongError> {
         let known = match self.at.entry(t.to_bits()) {
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(free) => {
-                let analysis = path.analysis(t)?;
-                free.insert(verdicts(&analysis).map(|v| v.judgement.margin).collect())
+                let judged = path.judged_at(t)?;
+                free.insert(judged.iter().map(|j| j.margin).collect())
             }
         };
-        Ok(known.get(verdict).copied().unwrap_or(f64::NAN))
+        Ok(known.get(component).copied().unwrap_or(f64::NAN))
     }
 }
 
-/// Finds isolated instants outside the stretches that have verdicts of their own, and outside
-/// nearly singular intervals.
+/// An instant, with the verdicts on all components there.
+pub(super) type Instant = (f64, Vec<Judgement>);
+
+/// Finds isolated instants outside the stretches that have another rank, and outside nearly
+/// singular intervals.
 pub(super) fn instants<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
-    generic: &Analysis,
+    verdicts: &Stretches,
     stretches: &[Stretch],
     passages: &[Passage],
-) -> Result<Vec<Passage>, AlongError> {
-    let mechanism = path.mechanism;
-    let is_special = |t: f64| {
+) -> Result<Vec<Instant>, AlongError> {
+    let is_singular = |t: f64| {
         let mut stretches = stretches.iter().map(|e| [e.from, e.to]);
-        let mut intervals = passages.iter().filter_map(|p| p.nearly_singular);
+        let mut intervals = passages.iter().map(|p| p.nearly_singular);
         let contains = |[from, to]: [f64; 2]| from <= t && t <= to;
         stretches.any(contains) || intervals.any(contains)
     };
-    // Margins of the reactions that are generically not unique, sample by sample; `None` at samples
-    // at which another verdict is already known to hold.
-    let is_known = |s: &Sample| s.regular && !is_special(s.t);
-    let of_all_parts = |s: &Sample| -> Option<Vec<f64>> {
-        let margins = || verdicts(&s.analysis).map(|v| v.judgement.margin).collect();
-        is_known(s).then(margins)
-    };
+    let is_known = |s: &Sample| s.regular && !is_singular(s.t);
     let times: Vec<f64> = path.samples.iter().map(|s| s.t).collect();
-    let known: Vec<Option<Vec<f64>>> = path.samples.iter().map(of_all_parts).collect();
-    let not_unique: Vec<usize> = verdicts(generic)
-        .enumerate()
-        .filter(|(_, v)| v.judgement.verdict == Verdict::NotUnique)
-        .map(|(k, _)| k)
-        .collect();
+    let known: Vec<bool> = path.samples.iter().map(is_known).collect();
     let mut margins_at = Margins::default();
-    let mut found: Vec<(f64, Analysis)> = Vec::new();
-    for part in not_unique {
-        let margins: Vec<Option<f64>> = known
-            .iter()
-            .map(|margins| margins.as_ref().map(|of_parts| of_parts[part]))
+    let mut found: Vec<Instant> = Vec::new();
+    for (component, track) in verdicts.components().enumerate() {
+        // Margins at samples; `None` where another verdict than not unique holds around.
+        let samples = path.samples.iter().zip(&known);
+        let margins: Vec<Option<f64>> = samples
+            .map(|(s, known)| {
+                let is_open = *known && *track.at(s.t) == Verdict::NotUnique;
+                is_open.then(|| s.judged[component].margin)
+            })
             .collect();
-        let mut brackets = Vec::new();
-        for coarse in local_minima(&times, &margins) {
-            // Two instants may share what looks like one minimum: search between neighbouring
-            // samples on each side.
-            let neighbour = |t: f64, side: isize| -> Option<f64> {
-                let at = times.binary_search_by(|x| x.total_cmp(&t)).ok()?;
-                let next = at.checked_add_signed(side)?;
-                margins.get(next)?.map(|_| times[next])
-            };
-            let from = neighbour(coarse[0], -1).unwrap_or(coarse[0]);
-            let to = neighbour(coarse[1], 1).unwrap_or(coarse[1]);
-            let near = times
-                .iter()
-                .zip(&margins)
-                .filter(|(t, _)| (from..=to).contains(*t));
-            let (least, largest) = near
-                .filter_map(|(_, margin)| *margin)
-                .fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
-            if !search::may_reach(0.0, least, largest) {
-                continue;
-            }
-            let step = (to - from) / f64::from(FINER);
-            let finer: Vec<f64> = (0..=FINER).map(|k| from + f64::from(k) * step).collect();
-            let values = finer
-                .iter()
-                .map(|&t| Ok(Some(margins_at.of(path, t, part)?)));
-            let values = values.collect::<Result<Vec<_>, AlongError>>()?;
-            brackets.extend(local_minima(&finer, &values));
-        }
+        let brackets = brackets(path, &mut margins_at, component, (&times, &margins))?;
         for bracket in brackets {
-            let is_unique = |a: &Analysis| {
-                let of_part = verdicts(a).nth(part);
-                of_part.is_some_and(|v| v.judgement.verdict.is_unique() && !v.is_zero)
-            };
             let inside = |t: f64| bracket[0] <= t && t <= bracket[1];
-            if found.iter().any(|(t, a)| inside(*t) && is_unique(a)) {
+            let is_unique = |judged: &[Judgement]| judged[component].verdict.is_unique();
+            let is_listed = track.special().iter().any(|s| inside(s.time));
+            if is_listed || found.iter().any(|(t, j)| inside(*t) && is_unique(j)) {
                 continue;
             }
             // Near a flat minimum the margin is only rounding, so a sample time given by the caller
             // is preferred to any other time in that range.
-            let mut given = path.samples.iter().filter(|s| inside(s.t) && is_known(s));
-            let (t, there) = match given.find(|s| is_unique(&s.analysis)) {
-                Some(sample) => (sample.t, sample.analysis.clone()),
+            let samples = path.samples.iter().zip(&known);
+            let mut given = samples.filter(|(s, known)| inside(s.t) && **known);
+            let (t, judged) = match given.find(|(s, _)| is_unique(&s.judged)) {
+                Some((sample, _)) => (sample.t, sample.judged.clone()),
                 None => {
                     let least =
-                        search::minimum(bracket, 0.0, 0.0, |t| margins_at.of(path, t, part))?;
+                        search::minimum(bracket, 0.0, 0.0, |t| margins_at.of(path, t, component))?;
                     let Some((t, _)) = least else {
                         continue;
                     };
-                    (t, path.analysis(t)?)
+                    (t, path.judged_at(t)?)
                 }
             };
-            if is_unique(&there) && !is_special(t) {
-                found.push((t, there));
+            if is_unique(&judged) && !is_singular(t) && is_open(track, t) {
+                found.push((t, judged));
             }
         }
     }
-    Ok(found
-        .into_iter()
-        .map(|(time, analysis)| {
-            let mut passage = Passage {
-                time,
-                kind: PassageKind::Verdicts,
-                nearly_singular: None,
-                differences: differences(mechanism, generic, &analysis),
-                text: String::new(),
-            };
-            passage.text = words::passage(&passage, generic);
-            passage
-        })
-        .collect())
+    Ok(found)
+}
+
+fn is_open(track: &VerdictTrack, t: f64) -> bool {
+    *track.at(t) == Verdict::NotUnique
+}
+
+/// Intervals around minima of the margin of a component, by its margins at samples, where known,
+/// and at finer times.
+fn brackets<F: FnMut(f64) -> State>(
+    path: &mut Path<'_, F>,
+    margins_at: &mut Margins,
+    component: usize,
+    (times, margins): (&[f64], &[Option<f64>]),
+) -> Result<Vec<[f64; 2]>, AlongError> {
+    let mut brackets = Vec::new();
+    for coarse in local_minima(times, margins) {
+        // Two instants may share what looks like one minimum: search between neighbouring samples
+        // on each side.
+        let neighbour = |t: f64, side: isize| -> Option<f64> {
+            let at = times.binary_search_by(|x| x.total_cmp(&t)).ok()?;
+            let next = at.checked_add_signed(side)?;
+            margins.get(next)?.map(|_| times[next])
+        };
+        let from = neighbour(coarse[0], -1).unwrap_or(coarse[0]);
+        let to = neighbour(coarse[1], 1).unwrap_or(coarse[1]);
+        let near = times
+            .iter()
+            .zip(margins)
+            .filter(|(t, _)| (from..=to).contains(*t));
+        let (least, largest) = near
+            .filter_map(|(_, margin)| *margin)
+            .fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+        if !search::may_reach(0.0, least, largest) {
+            continue;
+        }
+        let step = (to - from) / f64::from(FINER);
+        let finer: Vec<f64> = (0..=FINER).map(|k| from + f64::from(k) * step).collect();
+        let values = finer
+            .iter()
+            .map(|&t| Ok(Some(margins_at.of(path, t, component)?)));
+        let values = values.collect::<Result<Vec<_>, AlongError>>()?;
+        brackets.extend(local_minima(&finer, &values));
+    }
+    Ok(brackets)
 }

@@ -1,24 +1,24 @@
 //! A motion analysed part by part: each set of joints on common cycles has its own motion and its
 //! own passages.
 
-use crate::judged::Judged;
-use crate::limits::ROWS_MAX;
 use model::{Mechanism, System};
 
-use super::data::{Along, AlongError, Passage, PassageKind, Stretch};
+use super::data::{Along, AlongError, GenericRank, Passage, PassageKind, Stretch};
 use super::{judged_as_one, words};
-use crate::analysis::Analysis;
+use crate::limits::ROWS_MAX;
 use crate::parts::{Extent, Partition};
 use crate::second_order::Continuation;
 use crate::state::State;
+use crate::stretches::Stretches;
 
-/// Analyses a motion of parts at these times, which include the break times.
+/// Analyses a motion of parts at these times, which include the break times. The verdicts of the
+/// run that computed the motion are given, if there was one.
 pub(super) fn judged_by_parts(
     mechanism: &Mechanism,
     motion: impl Fn(f64, &Extent) -> State + Sync,
     times: &[f64],
     partition: &Partition,
-    first: &State,
+    of_run: Option<&Stretches>,
 ) -> Result<Along, AlongError> {
     let parts = partition.map(mechanism, |part, extent| {
         let rows = part.layout().rows();
@@ -29,38 +29,46 @@ pub(super) fn judged_by_parts(
                 most: ROWS_MAX,
             });
         }
-        judged_as_one(part, |t| motion(t, &extent), times).map(|along| (extent, along))
+        let own = of_run.map(|all| all.of_part(&extent, part.layout().groups.len()));
+        judged_as_one(part, |t| motion(t, &extent), times, own).map(|along| (extent, along))
     })?;
-    let mut generic = Vec::with_capacity(parts.len());
+    let extent = [times[0], times[times.len() - 1]];
+    let mut verdicts = match of_run {
+        Some(all) => all.clone(),
+        None => Stretches::unique(mechanism, extent, &[]),
+    };
+    let mut generic = GenericRank {
+        time: times[0],
+        rank: 0,
+        redundancy: 0,
+    };
     let mut stretches: Vec<(usize, Stretch)> = Vec::new();
     let mut passages: Vec<(usize, Passage)> = Vec::new();
     for (extent, along) in parts {
-        let usual = along.generic.decision.redundancy;
+        let usual = along.generic.redundancy;
+        generic.rank += along.generic.rank;
+        generic.redundancy += usual;
         stretches.extend(along.stretches.into_iter().map(|s| (usual, s)));
         for mut passage in along.passages {
             whole_branches(&mut passage, &extent, &motion);
             passages.push((usual, passage));
         }
-        generic.push(of_whole(along.generic, mechanism, extent));
+        let own = 0..along.verdicts.reactions.len();
+        let places: Vec<usize> = own.map(|own| extent.group(own)).collect();
+        verdicts.take(&along.verdicts, &places, &[]);
     }
     let is_usual = |t: f64| {
         let mut inside = stretches.iter().map(|(_, s)| [s.from, s.to]);
-        let mut near = passages
-            .iter()
-            .map(|(_, p)| p.nearly_singular.unwrap_or([p.time; 2]));
+        let mut near = passages.iter().map(|(_, p)| p.nearly_singular);
         let holds = |[from, to]: [f64; 2]| from <= t && t <= to;
         !inside.any(holds) && !near.any(holds)
     };
-    let time = times
-        .iter()
-        .copied()
-        .find(|&t| is_usual(t))
-        .unwrap_or(times[0]);
-    let generic = Analysis::of(mechanism, time, &first.q, generic);
-    let redundancy = generic.decision.redundancy;
+    let usual = times.iter().copied().find(|&t| is_usual(t));
+    generic.time = usual.unwrap_or(times[0]);
+    let redundancy = generic.redundancy;
     let mut stretches = together(stretches, redundancy);
     for stretch in &mut stretches {
-        stretch.text = words::stretch(stretch, &generic);
+        stretch.text = words::stretch(stretch, redundancy);
     }
     let mut passages: Vec<Passage> = passages
         .into_iter()
@@ -71,29 +79,17 @@ pub(super) fn judged_by_parts(
             {
                 *own += redundancy - usual;
             }
-            passage.text = words::passage(&passage, &generic);
+            passage.text = words::passage(&passage, redundancy);
             passage
         })
         .collect();
     passages.sort_by(|a, b| a.time.total_cmp(&b.time));
     Ok(Along {
+        verdicts,
         generic,
         stretches,
         passages,
     })
-}
-
-/// Converts the analysis of a part to the numbering of the whole mechanism.
-fn of_whole(analysis: Analysis, whole: &Mechanism, extent: Extent) -> Judged {
-    let mut parts = analysis.parts;
-    let part = parts.swap_remove(0);
-    Judged {
-        part,
-        reactions: analysis.reactions,
-        dependencies: analysis.dependencies,
-        warnings: analysis.warnings,
-    }
-    .placed(whole, extent)
 }
 
 /// Extends the velocities on other branches of a part to the whole mechanism; bodies outside the
@@ -120,7 +116,6 @@ fn together(mut found: Vec<(usize, Stretch)>, redundancy: usize) -> Vec<Stretch>
         match all.last_mut() {
             Some(last) if last.from == stretch.from && last.to == stretch.to => {
                 last.redundancy = last.redundancy + stretch.redundancy - usual;
-                last.differences.extend(stretch.differences);
             }
             _ => all.push(Stretch {
                 redundancy: redundancy + stretch.redundancy - usual,

@@ -6,16 +6,14 @@ use crate::limits::{
 use crate::pose::velocity_units;
 use linalg::{Matrix, PivotedQr, least_squares_step};
 use model::{Mechanism, System, is_at_rest};
-use rank::RankStatus;
+use rank::{RankDecision, RankStatus};
 
 use super::border::Border;
 use rank::NEARLY_REDUNDANT;
 
-use super::compare::differences;
 use super::data::{AlongError, Passage, PassageKind, Stretch};
 use super::path::{Path, Point, Sample, singular_value};
-use super::{search, words};
-use crate::analysis::Analysis;
+use super::search;
 use crate::second_order::{Continuation, Undetermined, second_order};
 use crate::state::State;
 
@@ -28,12 +26,19 @@ struct Candidate {
     proved: bool,
 }
 
+/// A singular or nearly singular instant, with the rank there.
+pub(super) struct Found {
+    /// Verdicts are not compared.
+    pub(super) passage: Passage,
+    pub(super) point: Point,
+    pub(super) decision: RankDecision,
+}
+
 /// Finds singular and nearly singular instants, except on stretches that are singular throughout.
 pub(super) fn passages<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
-    generic: &Analysis,
     stretches: &[Stretch],
-) -> Result<Vec<Passage>, AlongError> {
+) -> Result<Vec<Found>, AlongError> {
     let mut found = sign_changes(path)?;
     let times: Vec<f64> = path.samples.iter().map(|s| s.t).collect();
     let sigma: Vec<Option<f64>> = path.samples.iter().map(|s| Some(s.sigma)).collect();
@@ -50,7 +55,7 @@ pub(super) fn passages<F: FnMut(f64) -> State>(
             found.push(Candidate { t, sigma, proved });
         }
     }
-    let redundancy = generic.decision.redundancy;
+    let redundancy = path.mechanism.layout().rows() - path.rank;
     let is_apart = |c: &Candidate| {
         let mut singular = stretches.iter().filter(|s| s.redundancy > redundancy);
         singular.all(|s| !(s.from..=s.to).contains(&c.t))
@@ -58,7 +63,7 @@ pub(super) fn passages<F: FnMut(f64) -> State>(
     found.retain(is_apart);
     found
         .into_iter()
-        .map(|candidate| passage(path, candidate, generic))
+        .map(|candidate| passage(path, candidate))
         .collect()
 }
 
@@ -171,14 +176,12 @@ fn sign_changes<F: FnMut(f64) -> State>(
 fn passage<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     candidate: Candidate,
-    generic: &Analysis,
-) -> Result<Passage, AlongError> {
+) -> Result<Found, AlongError> {
     let (time, sigma) = (candidate.t, candidate.sigma);
     let point = path.at(time)?;
     // A sign change proves that a matrix of lower rank is at most σ_r away.
     let distance = if candidate.proved { sigma } else { 0.0 };
     let decision = path.decide(&point, distance)?;
-    let analysis = path.judged(&point, decision.clone())?;
     let interval = nearly_singular(path, time)?;
     let kind = match decision.status {
         RankStatus::Undecided(doubt) => PassageKind::Undecided { doubt },
@@ -197,15 +200,18 @@ fn passage<F: FnMut(f64) -> State>(
             }
         }
     };
-    let mut passage = Passage {
+    let passage = Passage {
         time,
         kind,
-        nearly_singular: Some(interval),
-        differences: differences(path.mechanism, generic, &analysis),
+        nearly_singular: interval,
+        differences: Vec::new(),
         text: String::new(),
     };
-    passage.text = words::passage(&passage, generic);
-    Ok(passage)
+    Ok(Found {
+        passage,
+        point,
+        decision,
+    })
 }
 
 /// The interval around t on which σ_r is below the limit, as far as the motion is given.

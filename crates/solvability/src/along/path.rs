@@ -11,10 +11,20 @@ use model::{Mechanism, Scratch, System};
 use rank::RankDecision;
 
 use super::data::AlongError;
-use crate::analysis::Analysis;
 use crate::certificate::{Rows, holding_together};
-use crate::mechanism::{Detail, part_verdicts, reaction_verdicts};
+use crate::components::judge_all;
+use crate::matrices::Solvability;
 use crate::state::{self, State};
+use crate::verdict::Judgement;
+
+/// What is determined at each sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Detail {
+    /// The rank.
+    Rank,
+    /// The rank, and the verdicts on components.
+    Verdicts,
+}
 
 /// A motion of a mechanism.
 pub(super) struct Path<'a, F> {
@@ -26,6 +36,8 @@ pub(super) struct Path<'a, F> {
     size: f64,
     /// The rank almost everywhere.
     pub(super) rank: usize,
+    /// An instant at which it holds (s): the one farthest from singular.
+    pub(super) typical: f64,
     /// The equilibration of the best sample, used for all.
     scaling: Scaling,
     /// The samples in the order of time.
@@ -54,8 +66,9 @@ pub(super) struct Sample {
     /// C, equilibrated with the scaling of all samples.
     pub(super) c: Matrix,
     pub(super) decision: RankDecision,
-    /// The verdicts at this point.
-    pub(super) analysis: Analysis,
+    /// The verdicts on all components, in the order of joints and drives; empty if only ranks are
+    /// asked for.
+    pub(super) judged: Vec<Judgement>,
 }
 
 impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
@@ -64,6 +77,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         mechanism: &'a Mechanism,
         mut motion: F,
         times: &[f64],
+        detail: Detail,
     ) -> Result<Self, AlongError> {
         let layout = mechanism.layout();
         let first = motion(times[0]);
@@ -74,20 +88,24 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
             holonomic: holding_together(mechanism, times[0], &first.q, (0..layout.m).collect()),
             size: scene_size(mechanism, &first.q),
             rank: 0,
+            typical: times[0],
             scaling: Scaling::identity(layout.rows(), layout.n_v),
             samples: Vec::new(),
         };
         for &t in times {
             let point = path.at(t)?;
             let decision = path.decide(&point, 0.0)?;
-            let analysis = path.judged(&point, decision.clone())?;
+            let judged = match detail {
+                Detail::Rank => Vec::new(),
+                Detail::Verdicts => path.judged(&point, decision.clone())?,
+            };
             path.samples.push(Sample {
                 t,
                 sigma: 0.0,
                 regular: false,
                 c: point.c,
                 decision,
-                analysis,
+                judged,
             });
         }
         path.settle_rank()?;
@@ -111,7 +129,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
                 tolerance: decision.evidence.tolerance,
             });
         };
-        self.rank = best.decision.rank;
+        (self.rank, self.typical) = (best.decision.rank, best.t);
         self.scaling = best.decision.scaling.clone();
         for sample in &mut self.samples {
             sample.c = self.scaling.apply(&sample.c);
@@ -191,28 +209,29 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         Ok(singular_value(&self.equilibrated(&point), self.rank))
     }
 
-    /// The verdicts at time t.
-    pub(super) fn analysis(&mut self, t: f64) -> Result<Analysis, AlongError> {
+    /// The verdicts on all components at time t.
+    pub(super) fn judged_at(&mut self, t: f64) -> Result<Vec<Judgement>, AlongError> {
         let point = self.at(t)?;
         let decision = self.decide(&point, 0.0)?;
         self.judged(&point, decision)
     }
 
-    /// The complete analysis at time t, with dependencies.
-    pub(super) fn complete(&mut self, t: f64) -> Result<Analysis, AlongError> {
-        let p = self.at(t)?;
-        let rows = Rows::in_double(self.mechanism, &p.s, &p.q);
-        let judged = part_verdicts(self.mechanism, &p.s, &rows, self.decide(&p, 0.0)?)?;
-        Ok(Analysis::of(self.mechanism, t, &p.q, vec![judged]))
-    }
-
-    /// The verdicts at a point whose rank has been decided, without the directions of non-unique
-    /// reactions.
-    pub(super) fn judged(&self, p: &Point, decision: RankDecision) -> Result<Analysis, AlongError> {
+    /// The same at a point whose rank has been decided.
+    pub(super) fn judged(
+        &self,
+        p: &Point,
+        decision: RankDecision,
+    ) -> Result<Vec<Judgement>, AlongError> {
         let pose = (&p.s, &p.q[..], self.size);
         let rows = Rows::of_matrix(self.mechanism, pose, &p.c, self.known(p));
-        let judged = reaction_verdicts(self.mechanism, &p.s, &rows, decision, Detail::Verdicts)?;
-        Ok(Analysis::of(self.mechanism, p.t, &p.q, vec![judged]))
+        let solvability = Solvability::from_decision(&rows.matrix(), decision);
+        let judged = judge_all(self.mechanism, &p.s, solvability.basis());
+        judged.map_err(|source| AnalysisError::Query { time: p.t, source }.into())
+    }
+
+    /// First and last sample time (s).
+    pub(super) fn extent(&self) -> [f64; 2] {
+        [self.samples[0].t, self.samples[self.samples.len() - 1].t]
     }
 }
 

@@ -1,88 +1,83 @@
-//! The generic verdict of a motion, and the stretches between break times on which another verdict
-//! holds.
-//!
-//! At constant rank a reaction that is not unique at one instant is not unique at almost all
-//! instants, because a non-zero margin stays non-zero nearby. So of several analyses the one with
-//! the most non-unique reactions is generic.
+//! The verdicts of a motion by those at its sample times, and stretches between break times on which
+//! another rank holds.
 
-use super::compare::{differences, verdicts};
+use model::{Mechanism, System};
+
 use super::data::Stretch;
 use super::path::{Path, Sample};
 use super::words;
-use model::{Mechanism, System};
+use crate::components::all_components;
+use crate::state::State;
+use crate::stretches::{Looked, Stretches, VerdictRecorder};
 
-use crate::analysis::Analysis;
-use crate::verdict::Verdict;
-
-/// The generic analysis, and the stretches in the order of time; neighbouring stretches with the
-/// same verdicts are merged.
-pub(super) fn stretches<F>(path: &Path<'_, F>) -> (Analysis, Vec<Stretch>) {
+/// The verdicts by those at the sample times that have the rank of their piece of the motion.
+pub(super) fn of_samples<F: FnMut(f64) -> State>(path: &Path<'_, F>) -> Stretches {
     let (mechanism, samples) = (path.mechanism, &path.samples);
-    let (first, last) = (samples[0].t, samples[samples.len() - 1].t);
-    let ends = ends_of_pieces(mechanism, first, last);
-    // A piece on which no rank is decided has no verdict of its own.
-    let typical: Vec<([f64; 2], &Sample)> = ends
-        .windows(2)
-        .filter_map(|e| {
-            let inside = samples.iter().filter(|s| e[0] < s.t && s.t < e[1]);
-            Some(([e[0], e[1]], most_generic(inside)?))
-        })
-        .collect();
-    let all = typical.iter().map(|piece| piece.1);
-    let generic = most_generic(all)
-        .or_else(|| most_generic(samples.iter()))
-        .unwrap_or(&samples[0])
-        .analysis
-        .clone();
+    let mut recorder = VerdictRecorder::new(all_components(mechanism.layout()).count());
+    let pieces = pieces(path);
+    for piece in &pieces {
+        recorder.cut(piece.from);
+    }
+    for sample in samples {
+        let begun = pieces.partition_point(|piece| piece.from <= sample.t);
+        let rank = pieces[begun.max(1) - 1].rank;
+        let is_typical = sample.decision.is_decided() && Some(sample.decision.rank) == rank;
+        let own = sample.judged.iter();
+        let verdicts = own.map(|j| is_typical.then(|| j.verdict.clone()));
+        recorder.see(sample.t, Looked::Next, verdicts.collect());
+    }
+    let tracks = recorder.finish(path.extent());
+    Stretches::of_components(mechanism, path.extent(), tracks)
+}
+
+/// The stretches with another rank than the motion has almost everywhere, in the order of time;
+/// neighbouring stretches with the same rank are merged.
+pub(super) fn of_other_rank<F: FnMut(f64) -> State>(path: &Path<'_, F>) -> Vec<Stretch> {
+    let rows = path.mechanism.layout().rows();
     let mut found: Vec<Stretch> = Vec::new();
-    for ([from, to], sample) in typical {
-        let differences = differences(mechanism, &generic, &sample.analysis);
-        let redundancy = sample.decision.redundancy;
-        if differences.is_empty() && redundancy == generic.decision.redundancy {
+    for Piece { from, to, rank } in pieces(path) {
+        // A piece on which no rank is decided has none of its own.
+        let Some(rank) = rank.filter(|rank| *rank != path.rank) else {
             continue;
-        }
+        };
+        let redundancy = rows - rank;
         match found.last_mut() {
-            Some(last)
-                if last.to == from
-                    && last.differences == differences
-                    && last.redundancy == redundancy =>
-            {
-                last.to = to;
-            }
+            Some(last) if last.to == from && last.redundancy == redundancy => last.to = to,
             _ => found.push(Stretch {
                 from,
                 to,
                 redundancy,
-                differences,
                 text: String::new(),
             }),
         }
     }
     for stretch in &mut found {
-        stretch.text = words::stretch(stretch, &generic);
+        stretch.text = words::stretch(stretch, rows - path.rank);
     }
-    (generic, found)
+    found
 }
 
-/// The sample with the largest rank; among these the one with the most verdicts "not unique" and
-/// the fewest "undecided"; among these the one farthest from singular.
-fn most_generic<'a>(samples: impl Iterator<Item = &'a Sample>) -> Option<&'a Sample> {
-    let standing = |s: &Sample| {
-        let (mut not_unique, mut undecided) = (0, 0);
-        for v in verdicts(&s.analysis) {
-            match v.judgement.verdict {
-                Verdict::NotUnique => not_unique += 1,
-                Verdict::Undecided { .. } => undecided += 1,
-                Verdict::Unique => {}
-            }
+/// A piece of the motion between break times.
+struct Piece {
+    from: f64,
+    to: f64,
+    /// The largest rank that is decided at sample times inside.
+    rank: Option<usize>,
+}
+
+fn pieces<F: FnMut(f64) -> State>(path: &Path<'_, F>) -> Vec<Piece> {
+    let [first, last] = path.extent();
+    let ends = ends_of_pieces(path.mechanism, first, last);
+    let piece = |ends: &[f64]| {
+        let inside = |s: &&Sample| ends[0] < s.t && s.t < ends[1];
+        let decided = path.samples.iter().filter(|s| s.decision.is_decided());
+        Piece {
+            from: ends[0],
+            to: ends[1],
+            rank: decided.filter(inside).map(|s| s.decision.rank).max(),
         }
-        (s.decision.rank, not_unique, std::cmp::Reverse(undecided))
     };
-    samples
-        .filter(|s| s.decision.is_decided())
-        .map(|s| (standing(s), s))
-        .max_by(|(a, s), (b, t)| a.cmp(b).then(s.sigma.total_cmp(&t.sigma)))
-        .map(|(_, s)| s)
+    ends.windows(2).map(piece).collect()
 }
 
 /// First and last time, and the break times between them.

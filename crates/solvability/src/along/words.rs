@@ -1,26 +1,19 @@
 //! Passages and stretches as sentences.
 
-use super::data::{Difference, Part, Passage, PassageKind, Stretch};
-use crate::analysis::Analysis;
+use super::data::{Difference, Passage, PassageKind, Stretch};
 use crate::limits::{GIVEN_DIGITS, SEARCHED_DIGITS};
 
-/// Describes what happens at an instant.
-pub(super) fn passage(p: &Passage, generic: &Analysis) -> String {
+/// Describes what happens at an instant of a motion with this redundancy almost everywhere.
+pub(super) fn passage(p: &Passage, usual: usize) -> String {
     let time = format!("at t = {} s", digits(p.time, SEARCHED_DIGITS));
-    let interval = p.nearly_singular.map_or(String::new(), |[from, to]| {
-        format!(
-            " (nearly singular from {} s to {} s)",
-            digits(from, SEARCHED_DIGITS),
-            digits(to, SEARCHED_DIGITS)
-        )
-    });
+    let [from, to] = p.nearly_singular.map(|t| digits(t, SEARCHED_DIGITS));
+    let interval = format!(" (nearly singular from {from} s to {to} s)");
     let what = match &p.kind {
         PassageKind::RankDrops {
             redundancy,
             continuation,
         } => format!(
-            "{time} the configuration is singular: the redundancy rises from {} to {redundancy} for an instant{interval}; {}",
-            generic.decision.redundancy, continuation
+            "{time} the configuration is singular: the redundancy rises from {usual} to {redundancy} for an instant{interval}; {continuation}"
         ),
         PassageKind::NearlySingular { sigma } => format!(
             "{time} the configuration is nearly singular: smallest singular value {sigma:.3e}{interval}; the rank stays, \
@@ -29,25 +22,16 @@ pub(super) fn passage(p: &Passage, generic: &Analysis) -> String {
         PassageKind::Undecided { doubt } => format!(
             "{time} the configuration is so nearly singular that the rank is not decided{interval}: {doubt}"
         ),
-        PassageKind::Verdicts => {
-            format!("{time} other verdicts hold for an instant, at the same rank")
-        }
     };
     with_differences(what, &p.differences)
 }
 
-/// Describes what holds on a stretch.
-pub(super) fn stretch(s: &Stretch, generic: &Analysis) -> String {
+/// Describes the rank on a stretch of a motion with this redundancy almost everywhere.
+pub(super) fn stretch(s: &Stretch, usual: usize) -> String {
     let (from, to) = (digits(s.from, GIVEN_DIGITS), digits(s.to, GIVEN_DIGITS));
-    let usual = generic.decision.redundancy;
-    let rank = if s.redundancy == usual {
-        "at the same rank".to_owned()
-    } else {
-        format!("the redundancy is {} instead of {usual}", s.redundancy)
-    };
-    with_differences(
-        format!("from t = {from} s to t = {to} s other verdicts hold, {rank}"),
-        &s.differences,
+    format!(
+        "from t = {from} s to t = {to} s the redundancy is {} instead of {usual}",
+        s.redundancy
     )
 }
 
@@ -73,16 +57,13 @@ fn with_differences(sentence: String, differences: &[Difference]) -> String {
     text
 }
 
-/// Name of the reaction if its whole wrench differs in the same way, or else of the part of it that
-/// differs.
+/// Name of the reaction if all of it differs in the same way, or else of its component.
 fn name(d: &Difference, all: &[Difference]) -> String {
-    let whole = |w: &&Difference| w.reaction == d.reaction && w.part == Part::Wrench;
+    let whole = |w: &&Difference| w.reaction == d.reaction && w.component.is_none();
     let is_covered = all.iter().find(whole).is_some_and(|w| w.here == d.here);
-    match &d.part {
-        _ if is_covered => format!("`{}`", d.reaction),
-        Part::Wrench => format!("`{}`", d.reaction),
-        Part::Component(component) => format!("{component} of `{}`", d.reaction),
-        Part::Row(label) => format!("row {label}"),
+    match d.component.filter(|_| !is_covered) {
+        None => format!("`{}`", d.reaction),
+        Some(component) => format!("{component} of `{}`", d.reaction),
     }
 }
 

@@ -3,9 +3,9 @@
 use super::{Label, NamedChoice};
 
 /// Numbers that belong to one solution of the equations of motion: that in which the multipliers of
-/// some rows are zero, or that of a named choice. Which of them are the same in every solution is a question for the verdicts;
-/// the numbers alone do not say it, so they are given only to a caller who says that they are
-/// chosen.
+/// some rows are zero, or that of a named choice. Which of them are the same in every solution is a
+/// question for the verdicts; the numbers alone do not say it, so they are given only to a caller
+/// who says that they are chosen.
 ///
 /// ```
 /// use solvability::Chosen;

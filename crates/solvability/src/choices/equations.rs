@@ -12,7 +12,7 @@ use model::start::scene_size;
 use model::{Level, Mechanism, Scratch, System};
 use rank::RankStatus;
 
-use super::ChoiceError;
+use super::{ChoiceError, Chosen};
 use crate::existence::may_miss;
 use crate::groups::{RequestError, check};
 use crate::parts::Extent;
@@ -34,7 +34,7 @@ use crate::sparse::{blocks, rows_of};
 ///     gamma: vec![0.0, 0.0],
 /// };
 /// let lambda = equations.multipliers(&decide(&equations.c, 0.0)?)?;
-/// assert_eq!(lambda.iter().sum::<f64>(), 3.0);
+/// assert_eq!(lambda.as_chosen().iter().sum::<f64>(), 3.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -108,7 +108,7 @@ pub struct Solution {
     /// a, n_v.
     pub acceleration: Vec<f64>,
     /// λ with zeros on the dropped rows. All other solutions are `λ + Z·y`.
-    pub multipliers: Vec<f64>,
+    pub multipliers: Chosen<f64>,
     /// Reactions that have no finite value in the motion, whatever the multipliers say:
     /// [`crate::no_finite_reactions`]. Empty unless the caller asks for them.
     pub no_finite: Vec<Arc<NoFiniteReaction>>,
@@ -153,7 +153,7 @@ impl Equations {
             extent.velocities(&solution.acceleration),
         ];
         let of_part = Self::of(part, t, &q, &v)?;
-        let lambda = extent.of_rows(&solution.multipliers);
+        let lambda = extent.of_rows(solution.multipliers.as_chosen());
         // The accelerations are known, so any positive masses serve; only zeros are replaced.
         let largest = of_part.mass.iter().fold(0.0_f64, |a, m| a.max(*m));
         let some = |m: &f64| match (*m > 0.0, largest > 0.0) {
@@ -182,7 +182,7 @@ impl Equations {
     /// - [`ChoiceError::Contradiction`]: the dropped rows require other accelerations, so there is
     ///   no solution.
     /// - [`ChoiceError::Request`]: sizes do not fit.
-    pub fn multipliers(&self, rows: impl Into<RowDecision>) -> Result<Vec<f64>, ChoiceError> {
+    pub fn multipliers(&self, rows: impl Into<RowDecision>) -> Result<Chosen<f64>, ChoiceError> {
         self.solution(rows).map(|solution| solution.multipliers)
     }
 
@@ -214,7 +214,7 @@ impl Equations {
         saddle.solve(&self.force, &gamma, &mut a, &mut of_kept)?;
         let solution = Solution {
             acceleration: a,
-            multipliers: on_all_rows(kept, of_kept, m),
+            multipliers: Chosen::new(on_all_rows(kept, of_kept, m), rows.dropped.clone()),
             no_finite: Vec::new(),
         };
         Ok((solution, saddle))
@@ -339,7 +339,10 @@ fn sparse_solution(
     }
     Ok(Solution {
         acceleration: a,
-        multipliers: on_all_rows(kept, of_kept, layout.rows()),
+        multipliers: Chosen::new(
+            on_all_rows(kept, of_kept, layout.rows()),
+            rows.dropped.clone(),
+        ),
         no_finite: Vec::new(),
     })
 }

@@ -38,7 +38,7 @@ impl Joined<'_> {
         let mut s = part.scratch();
         part.pose(t, &q, &mut s);
         part.c(&mut s);
-        let lambda = extent.of_rows(&solution.multipliers);
+        let lambda = extent.of_rows(solution.multipliers.as_chosen());
         let mut force = own(&solution.acceleration);
         force.iter_mut().zip(part.mass()).for_each(|(f, m)| *f *= m);
         for (i, l) in lambda.iter().enumerate() {

@@ -253,10 +253,10 @@ fn of_component(
     }
 }
 
-/// Whether the named component of a definition is a torque: its rows restrict rotations alone.
+/// Whether the named component of a definition is a torque: no row of it has a force in its
+/// reaction.
 fn turns(group: &model::reaction::ConstraintGroup) -> bool {
-    let forces = group.space.forces();
-    !group.spec.c.iter().any(|entry| forces.contains(&entry.dof))
+    !(0..group.rows.len()).any(|row| group.pushes(row))
 }
 
 fn value(reactions: Reactions<'_>, id: ConstraintId, kind: Kind, reaction: &Reaction) -> f64 {

@@ -13,13 +13,13 @@ use model::{ConstraintId, Known, Mechanism, Scratch, System};
 use rank::RankStatus;
 
 use super::recorder::Verdicts;
-use super::{GroupStretches, Looked, ReactionStretches, Stretches, VerdictRecorder, VerdictTrack};
+use super::{Looked, Stretches, VerdictRecorder, VerdictTrack};
 use crate::certificate::Rows;
+use crate::components::{all_components, component_names, judge_components};
 use crate::error::AnalysisError;
 use crate::groups::{Group, LinearForm, ReactionForms, RequestError};
 use crate::limits::ROWS_MAX;
 use crate::matrices::{self, Basis, QueryError, Solvability, orthonormal};
-use crate::mechanism::component_map;
 use crate::parts::{Extent, open_parts};
 use crate::pose::evaluated;
 use crate::sparse::Decided;
@@ -151,6 +151,35 @@ impl<'m> CarriedVerdicts<'m> {
         self.recorder.see(t, looked, nothing);
     }
 
+    /// The verdicts at one instant on the components of the parts with redundant rows; those of all
+    /// others are unique. Nothing is recorded. Without a state the rank is lower at the instant,
+    /// and they are undecided.
+    pub fn components_at(
+        &mut self,
+        at: Option<&CarriedState<'_>>,
+    ) -> Vec<(ConstraintId, &'static str, Verdict)> {
+        let lower = "the rank at this instant is not that of the motion";
+        let verdicts = match at.map(|at| self.verdicts(at)) {
+            Some(Ok(verdicts)) => verdicts,
+            Some(Err(error)) => {
+                let reason = error.to_string();
+                vec![Some(Verdict::Undecided { reason }); self.recorder.numbers()]
+            }
+            None => vec![None; self.recorder.numbers()],
+        };
+        let pairs = self.numbers().into_iter().zip(verdicts);
+        let component = |(number, verdict): (Number, Option<Verdict>)| match number {
+            Number::Component(id, name) => {
+                let open = || Verdict::Undecided {
+                    reason: lower.to_owned(),
+                };
+                Some((id, name, verdict.unwrap_or_else(open)))
+            }
+            Number::Group(..) => None,
+        };
+        pairs.filter_map(component).collect()
+    }
+
     fn verdicts(&mut self, at: &CarriedState<'_>) -> Result<Verdicts, AnalysisError> {
         let mut verdicts = Vec::with_capacity(self.recorder.numbers());
         let forms = self.forms(at)?;
@@ -208,14 +237,8 @@ impl<'m> CarriedVerdicts<'m> {
         for part in &self.parts {
             for own in 0..part.mechanism.layout().groups.len() {
                 let id = ConstraintId(part.extent.group(own));
-                let group = &layout.groups[id.0];
-                let names = group.space.components();
-                let components = group.components().into_iter().map(|c| names[c]);
-                numbers.extend(
-                    components
-                        .chain(group.spec.component)
-                        .map(|name| Number::Component(id, name)),
-                );
+                let names = component_names(&layout.groups[id.0]);
+                numbers.extend(names.map(|name| Number::Component(id, name)));
             }
             for (k, group) in self.groups.iter().enumerate() {
                 let names = group.number_names(layout.space);
@@ -356,9 +379,8 @@ impl OpenPart<'_> {
 
     /// The answers of an instant that says nothing of others.
     fn nothing(&self, forms: &[LinearForm]) -> Verdicts {
-        let groups = self.mechanism.layout().groups.iter();
-        let own = groups.map(|g| g.components().len() + usize::from(g.spec.component.is_some()));
-        vec![None; own.sum::<usize>() + forms.len()]
+        let own = all_components(self.mechanism.layout()).count();
+        vec![None; own + forms.len()]
     }
 
     /// The accuracy by a decision whose columns have these exponents of two.
@@ -441,7 +463,7 @@ impl OpenPart<'_> {
         let mut verdicts = verdicts.iter();
         let groups = self.mechanism.layout().groups.iter();
         for (group, free) in groups.zip(&mut self.free) {
-            let count = group.components().len() + usize::from(group.spec.component.is_some());
+            let count = component_names(group).count();
             let own = verdicts.by_ref().take(count);
             let is_free = |v: &&Option<Verdict>| matches!(v, Some(Verdict::NotUnique));
             if own.filter(is_free).count() == count && count > 0 {
@@ -461,38 +483,18 @@ impl OpenPart<'_> {
         (basis, is_free): (&dyn Fn(&[usize]) -> Cow<'b, Basis>, &dyn Fn(usize) -> bool),
     ) -> Result<Vec<Verdict>, QueryError> {
         let mut verdicts = Vec::new();
-        let reactions = whole.reactions(at.scratch);
         for (own, group) in self.mechanism.layout().groups.iter().enumerate() {
             let id = ConstraintId(self.extent.group(own));
-            let named = group.spec.component;
             if is_free(own) {
-                let count = group.components().len() + usize::from(named.is_some());
+                let count = component_names(group).count();
                 verdicts.resize(verdicts.len() + count, Verdict::NotUnique);
                 continue;
             }
             let rows: Vec<usize> = group.rows.iter().collect();
             let basis = basis(&rows);
             let places = places(&basis, &rows, self.rows.len());
-            if basis.is_free_of(&places) {
-                let count = group.components().len() + usize::from(named.is_some());
-                verdicts.resize(verdicts.len() + count, Verdict::Unique);
-                continue;
-            }
-            let (components, map) = component_map(whole, id, at.scratch);
-            let forces = group.space.forces();
-            let forces = components.iter().filter(|c| forces.contains(*c)).count();
-            let mapped = basis
-                .mapped(&map, places.iter().copied())?
-                .with_forces(forces);
-            for k in 0..components.len() {
-                verdicts.push(mapped.component(k)?.verdict);
-            }
-            if let Some(name) = named {
-                let coefficients = reactions.component_coefficients(id, name);
-                let coefficients = coefficients.unwrap_or_else(|| vec![0.0; rows.len()]);
-                let map = Matrix::from_fn(1, rows.len(), |_, j| coefficients[j]);
-                verdicts.push(basis.mapped(&map, places)?.component(0)?.verdict);
-            }
+            let judged = judge_components(whole, id, at.scratch, &basis, &places)?;
+            verdicts.extend(judged.into_iter().map(|j| j.verdict));
         }
         for form in forms {
             let own: Vec<usize> = (0..self.rows.len())
@@ -514,79 +516,5 @@ fn places(basis: &Basis, rows: &[usize], all: usize) -> Vec<usize> {
         rows.to_vec()
     } else {
         (0..rows.len()).collect()
-    }
-}
-
-impl Stretches {
-    /// Everything unique from begin to end.
-    #[must_use]
-    pub fn unique(mechanism: &Mechanism, extent: [f64; 2], groups: &[Group]) -> Self {
-        let track = || VerdictTrack::constant(extent, Verdict::Unique);
-        let layout = mechanism.layout();
-        let reaction = |id: ConstraintId| {
-            let group = &layout.groups[id.0];
-            let names = group.space.components();
-            let own = group.components().into_iter().map(|c| names[c]);
-            ReactionStretches {
-                id,
-                whole: track(),
-                components: own
-                    .chain(group.spec.component)
-                    .map(|name| (name, track()))
-                    .collect(),
-            }
-        };
-        let of_group = |group: &Group| GroupStretches {
-            whole: track(),
-            numbers: group
-                .number_names(layout.space)
-                .iter()
-                .map(|name| (*name, track()))
-                .collect(),
-        };
-        Self {
-            extent,
-            reactions: layout.constraint_ids().map(reaction).collect(),
-            groups: groups.iter().map(of_group).collect(),
-        }
-    }
-
-    /// Takes the verdicts of some of the joints and drives, with their places in the whole. Each
-    /// group of theirs is a share of one of the whole.
-    pub fn take(&mut self, own: &Self, places: &[usize], shares: &[usize]) {
-        for (found, &place) in own.reactions.iter().zip(places) {
-            self.reactions[place] = ReactionStretches {
-                id: ConstraintId(place),
-                ..found.clone()
-            };
-        }
-        for (found, &place) in own.groups.iter().zip(shares) {
-            let known = self.groups[place].numbers.iter_mut();
-            for ((_, known), (_, track)) in known.zip(&found.numbers) {
-                *known = VerdictTrack::together(&[known, track]);
-            }
-        }
-    }
-
-    /// Sets the verdicts on whole reactions and groups by those on their numbers.
-    pub fn sum_up(&mut self, groups: &[Group]) {
-        for reaction in &mut self.reactions {
-            let own: Vec<&VerdictTrack> = reaction.components.iter().map(|(_, t)| t).collect();
-            if !own.is_empty() {
-                reaction.whole = VerdictTrack::together(&own);
-            }
-        }
-        for (group, found) in groups.iter().zip(&mut self.groups) {
-            let own: Vec<&VerdictTrack> = match group {
-                Group::Members(members) => members
-                    .iter()
-                    .map(|id| &self.reactions[id.0].whole)
-                    .collect(),
-                _ => found.numbers.iter().map(|(_, track)| track).collect(),
-            };
-            if !own.is_empty() {
-                found.whole = VerdictTrack::together(&own);
-            }
-        }
     }
 }

@@ -40,7 +40,7 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
     let mechanism = &study.prepared.mechanism;
     let mut trajectory =
         TrajectoryTable::new(Vec::new(), mechanism).expect("a vector takes everything");
-    let columns = columns_of_reactions(mechanism, &Selection::All, &[], |_, _| false);
+    let columns = columns_of_reactions(mechanism, &Selection::All, &[], |_| false);
     let columns = columns.expect("all of them");
     let mut reactions = ReactionTable::new("choice.csv", Vec::new(), mechanism, columns)
         .expect("a vector takes everything");

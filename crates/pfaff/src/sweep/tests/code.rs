@@ -112,7 +112,7 @@ fn cells(row: &SweepRow) -> Vec<u64> {
         motion.events,
         motion.rank,
         motion.redundancy,
-        motion.not_unique,
+        motion.not_unique.unwrap_or(u64::MAX),
         motion.fragile,
     ];
     let numbers = numbers.into_iter().chain(motion.state.iter().copied());

@@ -1,11 +1,14 @@
 //! Verdicts along a motion.
 
+use model::Layout;
 use serde::Serialize;
-use solvability::{Along, Continuation, Difference, Part, Passage, PassageKind, Stretch};
+use solvability::{
+    Along, Continuation, Difference, Passage, PassageKind, ReactionStretches, Stretch,
+};
 
-use super::VerdictDocument;
+use crate::documents::{Named, SpecialDocument, TrackDocument};
 
-/// The generic verdict of a motion, and the times at which another holds.
+/// The verdicts of a motion by stretches of time, and its singular configurations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct AlongDocument {
@@ -22,43 +25,43 @@ pub struct AlongDocument {
     /// stopped, continued smoothly.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continued_to: Option<f64>,
-    /// The verdicts that hold almost everywhere.
-    pub generic: GenericVerdictsDocument,
-    /// Stretches of time with other verdicts.
+    /// The rank that holds almost everywhere.
+    pub generic: GenericRankDocument,
+    /// The verdicts on joints and drives over the motion, as in `summary.json` of a run.
+    pub reactions: Named<AlongReactionDocument>,
+    /// Instants with another verdict than their stretch.
+    pub special: Vec<SpecialDocument>,
+    /// Stretches of time with another rank.
     pub stretches: Vec<StretchDocument>,
-    /// Instants at which something differs.
+    /// Singular configurations.
     pub passages: Vec<PassageDocument>,
 }
 
-/// The verdicts that hold almost everywhere.
+/// The rank that holds almost everywhere.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct GenericVerdictsDocument {
-    /// An instant at which they hold (s).
+pub struct GenericRankDocument {
+    /// An instant at which it holds (s).
     pub time: f64,
     /// Rank of C.
     pub rank: usize,
     /// Degree of redundancy.
     pub redundancy: usize,
-    /// The verdict of every joint and drive.
-    pub reactions: Vec<NamedVerdictDocument>,
 }
 
-/// The verdict of a joint or drive, or of one of its components.
+/// The verdict of a joint or drive over a motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct NamedVerdictDocument {
-    /// Its name.
-    pub name: String,
-    /// Its verdict.
+pub struct AlongReactionDocument {
+    /// The verdict over the motion.
     #[serde(flatten)]
-    pub verdict: VerdictDocument,
-    /// The verdicts of the components of a joint or drive, in ground axes; of a component none.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub components: Vec<NamedVerdictDocument>,
+    pub of_run: TrackDocument,
+    /// The verdicts of its components by name, in ground axes, as far as they are not identically
+    /// zero, and of the named one of its definition.
+    pub components: Named<TrackDocument>,
 }
 
-/// A stretch of time with other verdicts.
+/// A stretch of time with another rank.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct StretchDocument {
@@ -68,19 +71,17 @@ pub struct StretchDocument {
     pub to: f64,
     /// Degree of redundancy on this stretch.
     pub redundancy: usize,
-    /// Verdicts that differ from the generic ones.
-    pub differences: Vec<DifferenceDocument>,
     /// Description.
     pub text: String,
 }
 
-/// An instant at which something differs.
+/// An instant at which the configuration is singular, or nearly so.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PassageDocument {
     /// Time (s).
     pub time: f64,
-    /// `rank_drops`, `nearly_singular`, `undecided` or `verdicts`.
+    /// `rank_drops`, `nearly_singular` or `undecided`.
     pub kind: &'static str,
     /// Degree of redundancy if the rank drops.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -95,9 +96,8 @@ pub struct PassageDocument {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sigma: Option<f64>,
     /// First and last time of the nearly singular interval (s).
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub nearly_singular: Option<[f64; 2]>,
-    /// Verdicts that differ from the generic ones.
+    pub nearly_singular: [f64; 2],
+    /// Verdicts that differ from those of their stretch.
     pub differences: Vec<DifferenceDocument>,
     /// Description.
     pub text: String,
@@ -121,9 +121,9 @@ pub struct ContinuationDocument {
 pub struct DifferenceDocument {
     /// Name of the joint or drive.
     pub reaction: String,
-    /// `wrench`, a component, or `row` with its number.
-    pub part: String,
-    /// Verdict almost everywhere.
+    /// A component, or `wrench` for the whole reaction.
+    pub part: &'static str,
+    /// Verdict on the stretch that contains the instant.
     pub generic: &'static str,
     /// Verdict here.
     pub here: &'static str,
@@ -131,38 +131,32 @@ pub struct DifferenceDocument {
 
 impl AlongDocument {
     /// The document of a motion that was analysed up to a time with this number of samples at this
-    /// distance, and that stopped there if a reason is given.
+    /// distance; `stopped` and `continued_to` are left empty.
     #[must_use]
-    pub fn new(
-        along: &Along,
-        to: f64,
-        (samples, reach): (usize, f64),
-        stopped: Option<String>,
-    ) -> Self {
-        let analysis = &along.generic;
-        let reactions = analysis.reactions.iter().map(|r| NamedVerdictDocument {
-            name: r.name.clone(),
-            verdict: (&r.wrench).into(),
-            components: (r.components.iter())
-                .map(|c| NamedVerdictDocument {
-                    name: c.name.to_owned(),
-                    verdict: (&c.judgement).into(),
-                    components: Vec::new(),
-                })
-                .collect(),
-        });
+    pub fn new(along: &Along, layout: &Layout, to: f64, (samples, reach): (usize, f64)) -> Self {
+        let generic = &along.generic;
+        let reaction = |found: &ReactionStretches| {
+            let own = found.components.iter();
+            let components = own.map(|(name, track)| ((*name).to_owned(), track.into()));
+            let document = AlongReactionDocument {
+                of_run: (&found.whole).into(),
+                components: Named(components.collect()),
+            };
+            (layout.groups[found.id.0].name.clone(), document)
+        };
         Self {
             to,
             samples,
             reach,
-            stopped,
+            stopped: None,
             continued_to: None,
-            generic: GenericVerdictsDocument {
-                time: analysis.time,
-                rank: analysis.decision.rank,
-                redundancy: analysis.decision.redundancy,
-                reactions: reactions.collect(),
+            generic: GenericRankDocument {
+                time: generic.time,
+                rank: generic.rank,
+                redundancy: generic.redundancy,
             },
+            reactions: Named(along.verdicts.reactions.iter().map(reaction).collect()),
+            special: SpecialDocument::all::<()>(&along.verdicts, &[], layout),
             stretches: along.stretches.iter().map(Into::into).collect(),
             passages: along.passages.iter().map(Into::into).collect(),
         }
@@ -175,7 +169,6 @@ impl From<&Stretch> for StretchDocument {
             from: stretch.from,
             to: stretch.to,
             redundancy: stretch.redundancy,
-            differences: stretch.differences.iter().map(Into::into).collect(),
             text: stretch.text.clone(),
         }
     }
@@ -185,7 +178,7 @@ impl From<&Passage> for PassageDocument {
     fn from(passage: &Passage) -> Self {
         let mut document = Self {
             time: passage.time,
-            kind: "verdicts",
+            kind: "undecided",
             redundancy: None,
             continuation: None,
             branches: Vec::new(),
@@ -209,7 +202,6 @@ impl From<&Passage> for PassageDocument {
                 document.kind = "nearly_singular";
                 document.sigma = Some(*sigma);
             }
-            PassageKind::Undecided { .. } => document.kind = "undecided",
             _ => {}
         }
         document
@@ -233,14 +225,9 @@ impl From<&Continuation> for ContinuationDocument {
 
 impl From<&Difference> for DifferenceDocument {
     fn from(difference: &Difference) -> Self {
-        let part = match &difference.part {
-            Part::Wrench => "wrench".to_owned(),
-            Part::Component(name) => (*name).to_owned(),
-            Part::Row(label) => format!("row {}", label.number),
-        };
         Self {
             reaction: difference.reaction.clone(),
-            part,
+            part: difference.component.unwrap_or("wrench"),
             generic: difference.generic.word(),
             here: difference.here.word(),
         }

@@ -4,8 +4,8 @@ use model::{ConstraintId, Frame, Layout, SpaceKind};
 use rank::Settled;
 use serde::Serialize;
 use solvability::{
-    ComponentVerdict, Explanation, FrameVerdict, FreeDirection, GroupVerdict, NoFiniteReaction,
-    ReactionVerdict, Sensitivities, Sensitivity, Value,
+    ComponentVerdict, Explanation, FrameVerdict, FreeDirection, GenericVerdict, GroupSensitivities,
+    GroupVerdict, NoFiniteReaction, ReactionVerdict, Sensitivities, Sensitivity, Value, Verdict,
 };
 
 use super::ValueDocument;
@@ -25,6 +25,10 @@ pub struct ReactionDocument {
     /// Verdict of force and torque, with ‖B_X‖ as margin.
     #[serde(flatten)]
     pub wrench: VerdictDocument,
+    /// The verdict at nearly all configurations: on the stretch of the motion that contains the
+    /// instant, where a motion is run; otherwise at the other configurations that were compared.
+    /// `null` if none could be reached.
+    pub generic_verdict: Option<&'static str>,
     /// How strongly it depends on the data; [`super::AnalysisDocument::add_sensitivities`] fills
     /// it, and those of components and directions.
     #[serde(flatten)]
@@ -97,6 +101,10 @@ pub struct ComponentDocument {
     /// Its verdict.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
+    /// The verdict at nearly all configurations, as for the reaction; absent for components in
+    /// other frames, of moments and of sums.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub generic_verdict: Option<Option<&'static str>>,
     /// How strongly it depends on the data, if it is unique.
     #[serde(flatten)]
     pub data: SensitivityDocument,
@@ -218,6 +226,35 @@ impl ReactionDocument {
         format!("{verdict}{within}{fragile}")
     }
 
+    /// Adds the verdicts that hold at nearly all configurations.
+    pub(super) fn add_generic(&mut self, generic: &GenericVerdict) {
+        self.generic_verdict = Some(generic.whole.word());
+        for component in &mut self.components {
+            component.generic_verdict = Some(generic.component(component.name).map(Verdict::word));
+        }
+    }
+
+    /// The verdicts that hold at nearly all configurations, where they differ from those here, by
+    /// name: of the reaction, or else of its components.
+    #[must_use]
+    pub fn differing(&self) -> Vec<(String, &'static str)> {
+        let own = self.components.iter().filter_map(|c| {
+            let generic = c.generic_verdict.flatten()?;
+            (generic != c.verdict.verdict).then(|| (format!("{}.{}", self.name, c.name), generic))
+        });
+        let own: Vec<(String, &'static str)> = own.collect();
+        let whole = self.generic_verdict.filter(|generic| {
+            let all_differ = own.len() == self.components.len();
+            *generic != self.wrench.verdict && all_differ
+        });
+        match whole {
+            Some(generic) if own.iter().all(|(_, word)| *word == generic) => {
+                vec![(self.name.clone(), generic)]
+            }
+            _ => own,
+        }
+    }
+
     /// Adds the sensitivities of its components and directions.
     pub(super) fn add_sensitivities(
         &mut self,
@@ -285,10 +322,16 @@ impl From<&ReactionVerdict> for ReactionDocument {
             kind: r.kind,
             rows: r.rows.iter().map(|row| row.row + 1).collect(),
             wrench: (&r.wrench).into(),
+            generic_verdict: None,
             data: SensitivityDocument::default(),
             multipliers: r.multipliers.verdict.word(),
             row_verdicts: rows.collect(),
-            components: r.components.iter().map(Into::into).collect(),
+            components: (r.components.iter())
+                .map(|component| ComponentDocument {
+                    generic_verdict: Some(None),
+                    ..component.into()
+                })
+                .collect(),
             unique_directions: r.live_directions.as_ref().map(|directions| {
                 let written = directions.iter().map(|direction| written(r, direction));
                 written.collect()
@@ -341,6 +384,7 @@ impl From<&ComponentVerdict> for ComponentDocument {
         Self {
             name: component.name,
             verdict: (&component.judgement).into(),
+            generic_verdict: None,
             data: SensitivityDocument::default(),
         }
     }
@@ -380,29 +424,16 @@ impl GroupDocument {
         }
     }
 
-    /// Adds how strongly its unique numbers depend on the data: one sensitivity for each, in their
-    /// order.
-    pub fn add_sensitivities(&mut self, found: Vec<Option<Sensitivity>>, layout: &Layout) {
-        let unique = self.values.iter_mut().map(|v| &mut v.value);
-        let unique = unique.filter(|value| value.verdict().is_unique());
-        for (value, found) in unique.zip(&found) {
-            value.add_sensitivity(found.clone());
+    /// Adds how strongly its unique numbers depend on the data.
+    pub fn add_sensitivities(&mut self, found: &GroupSensitivities, layout: &Layout) {
+        for ValueDocument { name, value, .. } in &mut self.values {
+            let own = name.and_then(|name| found.number(name));
+            value.add_sensitivity(own.cloned());
         }
-        let name = &self.name;
-        if self.components.is_empty() {
-            let sums = found
-                .iter()
-                .map(|found| SensitivityDocument::of_number(found.as_ref(), name, layout));
-            self.data = sums.fold(SensitivityDocument::default(), |a, b| a.or_larger(&b));
-            return;
+        for c in &mut self.components {
+            c.data = SensitivityDocument::of_group_number(found, &self.name, c.name, layout);
         }
-        let all = self.components.iter_mut().map(|c| (name, c));
-        ComponentDocument::add_sensitivities(all, found, layout);
-        let components = self.components.iter().map(|c| &c.data);
-        self.data = components.fold(
-            SensitivityDocument::default(),
-            SensitivityDocument::or_larger,
-        );
+        self.data = SensitivityDocument::of_group(found, &self.name, layout);
     }
 
     /// Adds the numbers of the group.

@@ -1,0 +1,26 @@
+//! Impulses of joints and drives where velocities jump, with their verdicts.
+
+use dynamics::ReactionImpulse;
+use serde::Serialize;
+use solvability::Value;
+
+use super::Named;
+
+/// The impulse of a joint or drive.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ImpulseDocument {
+    /// Its components that are not identically zero, and the named one of its definition, at this
+    /// instant (N·s, N·m·s).
+    pub components: Named<Value>,
+}
+
+impl From<&ReactionImpulse> for ImpulseDocument {
+    fn from(impulse: &ReactionImpulse) -> Self {
+        let components = impulse.components.iter();
+        let components = components.map(|(name, value)| ((*name).to_owned(), value.clone()));
+        Self {
+            components: Named(components.collect()),
+        }
+    }
+}

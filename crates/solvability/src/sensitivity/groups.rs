@@ -1,0 +1,94 @@
+//! Sensitivities of groups: of a sum as a whole, not of its terms.
+
+use model::Mechanism;
+
+use super::{ReactionNumber, Sensitivities};
+use crate::analysis::Analysis;
+use crate::choices::ChoiceError;
+use crate::groups::{Group, GroupVerdict};
+use crate::value::Sensitivity;
+
+/// Sensitivities of the numbers of a group that are unique.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GroupSensitivities {
+    /// Those of its numbers by their names, as [`Group::number_names`]. The terms of a sum change
+    /// together: what changes them may cancel in the sum.
+    pub numbers: Vec<(&'static str, Sensitivity)>,
+    /// The largest of them; of several separate reactions the largest of theirs, if all are unique.
+    /// `None` if nothing is unique, or if it is not known.
+    pub whole: Option<Sensitivity>,
+}
+
+impl GroupSensitivities {
+    /// The sensitivity of a number that is unique, by its name.
+    #[must_use]
+    pub fn number(&self, name: &str) -> Option<&Sensitivity> {
+        let mut numbers = self.numbers.iter();
+        numbers.find(|(known, _)| *known == name).map(|(_, s)| s)
+    }
+
+    /// Whether one of its numbers is fragile.
+    #[must_use]
+    pub fn is_fragile(&self) -> bool {
+        self.whole.as_ref().is_some_and(Sensitivity::is_fragile)
+    }
+}
+
+impl Analysis {
+    /// Computes how strongly the unique numbers of groups depend on the data, given their verdicts
+    /// and the sensitivities of all reactions.
+    ///
+    /// # Errors
+    /// As [`Self::sensitivities`].
+    pub fn group_sensitivities(
+        &self,
+        mechanism: &Mechanism,
+        (q, v): (&[f64], &[f64]),
+        groups: &[(&Group, &GroupVerdict)],
+        reactions: &Sensitivities,
+    ) -> Result<Vec<GroupSensitivities>, ChoiceError> {
+        let (mut asked, mut numbers) = (Vec::new(), Vec::new());
+        for (k, (group, verdict)) in groups.iter().enumerate() {
+            for (name, number) in unique_numbers(mechanism, group, verdict)? {
+                asked.push((k, name));
+                numbers.push(number);
+            }
+        }
+        let mut all = vec![GroupSensitivities::default(); groups.len()];
+        let found = self.sensitivities_of(mechanism, q, v, &numbers)?;
+        for ((k, name), found) in asked.into_iter().zip(found) {
+            all[k].numbers.extend(found.map(|s| (name, s)));
+        }
+        for (own, (group, verdict)) in all.iter_mut().zip(groups) {
+            let of_members: Vec<&Sensitivity> = match group {
+                Group::Members(members) if verdict.judgement.verdict.is_unique() => {
+                    let members = members.iter();
+                    members.filter_map(|id| reactions.reaction(*id)).collect()
+                }
+                _ => Vec::new(),
+            };
+            let numbers = own.numbers.iter().map(|(_, s)| s);
+            let largest = numbers
+                .chain(of_members)
+                .reduce(|a, b| if b.change > a.change { b } else { a });
+            own.whole = largest.cloned();
+        }
+        Ok(all)
+    }
+}
+
+/// The unique numbers of a group, with their names.
+fn unique_numbers(
+    mechanism: &Mechanism,
+    group: &Group,
+    verdict: &GroupVerdict,
+) -> Result<Vec<(&'static str, ReactionNumber)>, ChoiceError> {
+    let numbers = ReactionNumber::of_group(mechanism, group, verdict.about)?;
+    let is_unique = |k: usize| match verdict.components.get(k) {
+        Some(component) => component.judgement.verdict.is_unique(),
+        None => verdict.judgement.verdict.is_unique(),
+    };
+    let numbers = numbers.into_iter().enumerate();
+    let unique = numbers.filter(|(k, _)| is_unique(*k));
+    Ok(unique.map(|(_, number)| number).collect())
+}
