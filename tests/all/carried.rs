@@ -4,10 +4,11 @@
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
-use dynamics::MotionOptions;
+use dynamics::plan::Verdicts;
+use dynamics::{MotionOptions, Plan, Wanted};
 use model::{Registry, System};
 use pfaff::{Overrides, Study};
-use solvability::CARRIED_VECTORS;
+use solvability::{CARRIED_VECTORS, Stretches};
 
 /// A beam of 1 kg/m on so many parallel cranks of 1 m, inclined by 0.6, and a pendulum on it.
 fn cranks(count: usize) -> String {
@@ -83,4 +84,54 @@ fn many_dependencies_are_read_from_few_combinations() {
             assert_eq!(track.special(), [], "{} {name}", group.name);
         }
     }
+}
+
+/// A sweep reads verdicts at fewer rows of output, and a reaction that is a matter of choice once
+/// in a stretch. On each stretch it has the verdicts of a run that reads all of them: in scenes
+/// that turn, that pass singular configurations, and whose drives have breaks.
+#[test]
+fn verdicts_on_stretches_do_not_depend_on_instants() {
+    let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");
+    let registry = Registry::standard();
+    let mut differ = Vec::new();
+    for name in [
+        "bricard",
+        "car",
+        "peaucellier",
+        "robot-in-space",
+        "table",
+        "towed-cart",
+    ] {
+        let text = std::fs::read_to_string(format!("{examples}/{name}.toml")).expect("is read");
+        let study = Study::read(name, &text, &registry, &Overrides::default());
+        let study = study.unwrap_or_else(|e| panic!("{name}: {e}"));
+        let options = study.options.clone().expect("an end");
+        let [all, few] = [Verdicts::WithInstants, Verdicts::Stretches].map(|verdicts| {
+            let wanted = Wanted {
+                verdicts,
+                ..Wanted::default()
+            };
+            let plan = Plan::new(&study.prepared, &options, &wanted).expect("a plan");
+            let run = plan.simulate(|_| Ok(ControlFlow::Continue(())));
+            run.unwrap_or_else(|e| panic!("{name}: {}", e.error))
+                .verdicts
+                .expect("verdicts")
+        });
+        let words = |of: &Stretches, id: usize, component: &str| -> Vec<(f64, f64, &str)> {
+            let track = of.reactions[id].component(component).expect("known");
+            let stretches = track.stretches().iter();
+            stretches
+                .map(|s| (s.from, s.to, s.verdict.word()))
+                .collect()
+        };
+        for (id, reaction) in all.reactions.iter().enumerate() {
+            for (component, _) in &reaction.components {
+                let [a, b] = [&all, &few].map(|of| words(of, id, component));
+                if a != b {
+                    differ.push(format!("{name}, {id}.{component}: {a:?}, in a sweep {b:?}"));
+                }
+            }
+        }
+    }
+    assert!(differ.is_empty(), "{}", differ.join("\n"));
 }

@@ -4,7 +4,8 @@
 use std::ops::ControlFlow;
 
 use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
-use model::{Function, Known, Mechanism, Reaction, StartOptions, System};
+use model::{Function, Known, Mechanism, Reaction, Registry, StartOptions, System};
+use pfaff::{AssembledScene, Overrides};
 use serde::Deserialize;
 use solvability::{Analysis, Solvability, analyse, analyse_known};
 use tests::largest;
@@ -459,4 +460,27 @@ fn written_rows_are_as_accurate_as_steps() {
         worst_row <= 2.0 * worst_step,
         "rows {worst_row:e}, steps {worst_step:e}"
     );
+}
+
+/// A table has a row at a time, and the same time is analysed: both are the same state, to the last
+/// bit, and so have the same numbers.
+#[test]
+fn a_row_of_a_table_is_the_state_that_is_analysed_there() {
+    let text = include_str!("../../crates/suite/scenes/robot-trolley.toml");
+    let assembled = AssembledScene::read("robot.toml", text, &Registry::standard());
+    let study = assembled.and_then(|scene| scene.prepare(&Overrides::default()));
+    let study = study.expect("the robot starts");
+    let options = study.options.clone().expect("the scene states its end");
+    let mut rows = Vec::new();
+    let ended = simulate(&study.prepared, &options, |sample| {
+        rows.push((sample.t, sample.q.to_vec(), sample.v.to_vec()));
+        Ok(ControlFlow::Continue(()))
+    });
+    ended.expect("the robot moves");
+    let count = rows.len();
+    for k in [1, count / 3, count / 2, 3 * count / 5, count - 1] {
+        let (t, q, v) = &rows[k];
+        let state = study.state_until(*t, &|| false).expect("it is reached");
+        assert_eq!((&state.q, &state.v), (q, v), "t = {t} s");
+    }
 }

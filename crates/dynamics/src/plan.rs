@@ -38,8 +38,23 @@ pub struct Wanted {
     pub reactions: Reactions,
     /// Groups whose verdicts are requested besides.
     pub groups: Vec<Group>,
+    /// Which verdicts are requested with the reactions.
+    pub verdicts: Verdicts,
     /// Choices by which all reactions are requested besides, which are possible at the start.
     pub choices: Vec<NamedChoice>,
+}
+
+/// Verdicts that come with reactions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdicts {
+    /// Those on stretches, and the instants that differ: read at accepted steps and rows of output.
+    WithInstants,
+    /// Those on stretches alone: read at accepted steps, and at the first, second, fourth, eighth …
+    /// row of output after each event. A reaction that is a matter of choice is not read again in
+    /// the same stretch.
+    Stretches,
+    /// No verdicts.
+    None,
 }
 
 impl Default for Wanted {
@@ -50,6 +65,7 @@ impl Default for Wanted {
             accelerations: true,
             reactions: Reactions::All,
             groups: Vec::new(),
+            verdicts: Verdicts::WithInstants,
             choices: Vec::new(),
         }
     }
@@ -119,6 +135,8 @@ pub struct Plan<'a> {
     pub accelerations: Decided<bool>,
     /// Groups whose verdicts are computed; none without reactions.
     pub groups: Vec<Group>,
+    /// Verdicts that come with reactions.
+    pub verdicts: Verdicts,
     /// Choices by which reactions are computed at rows of output.
     pub choices: Vec<NamedChoice>,
     /// Its components, or the whole mechanism as the only one.
@@ -160,6 +178,7 @@ impl<'a> Plan<'a> {
             code,
             rows: rows(options, wanted.rows),
             accelerations: accelerations(wanted.accelerations),
+            verdicts: wanted.verdicts,
             groups: match wanted.reactions {
                 Reactions::None => Vec::new(),
                 _ => wanted.groups.clone(),

@@ -279,8 +279,7 @@ impl Study {
             accelerations: !many,
             // With them come the verdicts of the run; their numbers are not computed.
             reactions: Reactions::All,
-            groups: Vec::new(),
-            choices: Vec::new(),
+            ..Wanted::default()
         };
         let options = MotionOptions {
             t_end,

@@ -13,12 +13,11 @@ mod tests;
 use std::ops::Range;
 
 use linalg::{Matrix, PivotedQr};
-use model::start::scene_size;
 use model::{Mechanism, Part, RowRanges, Scratch, SpaceKind, System};
 use rank::{RankDecision, deletions, dependencies};
 use report::{ComparedChoice, Comparison, Frame, Freedom, Recording};
 use solvability::parts::parts;
-use solvability::{Configuration, NormWeights, decide};
+use solvability::{Configuration, NormWeights};
 
 /// Largest number of rows of a set whose choices are compared.
 const ROWS_MAX: usize = 150;
@@ -116,9 +115,11 @@ impl<'a> Set<'a> {
             part,
             eliminations: Vec::new(),
         };
-        let mut s = part.mechanism.scratch();
-        let decision = set.decide(&mut s, first)?;
-        set.eliminations = eliminations(&decision);
+        set.eliminations = {
+            let decided = set.decided(&set.coordinates(first), first)?;
+            let decision = decided.solvability().decision();
+            decision.is_decided().then(|| eliminations(decision))?
+        };
         Some(set)
     }
 
@@ -127,14 +128,9 @@ impl<'a> Set<'a> {
         places.map(|&j| frame.q[j]).collect()
     }
 
-    fn decide(&self, s: &mut Scratch, frame: &Frame) -> Option<RankDecision> {
-        let mechanism = &self.part.mechanism;
-        let q = self.coordinates(frame);
-        mechanism.pose(frame.t, &q, s);
-        mechanism.phi(s);
-        mechanism.c(s);
-        let decision = decide(mechanism, s, &q).ok()?;
-        decision.is_decided().then_some(decision)
+    /// The configuration of a frame; `None` if C is not finite.
+    fn decided(&self, q: &[f64], frame: &Frame) -> Option<Configuration<'_>> {
+        Configuration::decided(&self.part.mechanism, frame.t, q).ok()
     }
 
     fn compare(
@@ -162,17 +158,14 @@ impl<'a> Set<'a> {
             })
             .collect();
         let mut freedom = Vec::with_capacity(recording.frames.len());
-        let mut s = self.part.mechanism.scratch();
         for frame in &recording.frames {
-            let instant = self.instant(&mut s, frame);
-            for (k, choice) in choices.iter_mut().enumerate() {
-                choice.values.push(
-                    instant
-                        .values
-                        .get(k)
-                        .cloned()
-                        .unwrap_or_else(|| self.unknown()),
-                );
+            let instant = self.instant(frame);
+            let mut values = instant.values.into_iter();
+            for choice in &mut choices {
+                let of_choice = values.next();
+                choice
+                    .values
+                    .push(of_choice.unwrap_or_else(|| self.unknown()));
             }
             freedom.push(instant.freedom);
         }
@@ -208,15 +201,25 @@ impl<'a> Set<'a> {
         vec![vec![f64::NAN; components]; self.part.places.groups.len()]
     }
 
-    fn instant(&self, s: &mut Scratch, frame: &Frame) -> Instant {
+    fn instant(&self, frame: &Frame) -> Instant {
         let of_part = |all: &[f64]| -> Vec<f64> {
             let rows = self.part.places.rows.iter();
             rows.map(|&i| all[i]).collect()
         };
         let lambda = of_part(&frame.multipliers);
         let q = self.coordinates(frame);
-        let decision = self.decide(s, frame);
         let mechanism = &self.part.mechanism;
+        let unknown = |count| Instant {
+            values: Vec::new(),
+            freedom: vec![Freedom::UNKNOWN; count],
+        };
+        let Some(configuration) = self.decided(&q, frame) else {
+            return unknown(mechanism.layout().groups.len());
+        };
+        let (s, decision) = (
+            configuration.scratch(),
+            configuration.solvability().decision(),
+        );
         let maps: Vec<Matrix> = mechanism
             .layout()
             .constraint_ids()
@@ -230,12 +233,9 @@ impl<'a> Set<'a> {
             }
         };
         let n = maps.len();
-        let Some(decision) = decision else {
-            return Instant {
-                values: Vec::new(),
-                freedom: vec![Freedom::UNKNOWN; n],
-            };
-        };
+        if !decision.is_decided() {
+            return unknown(n);
+        }
         if decision.redundancy == 0 {
             return Instant {
                 values: vec![
@@ -245,17 +245,15 @@ impl<'a> Set<'a> {
                 freedom: vec![Freedom::NONE; n],
             };
         }
-        let z = dependencies(&decision);
+        let z = dependencies(decision);
         let free: Vec<Matrix> = maps
             .iter()
             .zip(&mechanism.layout().groups)
             .map(|(w, g)| product(w, &z, &g.rows))
             .collect();
-        let least = Configuration::new(mechanism, frame.t, &q, &decision)
-            .ok()
-            // There is no least norm if the wrenches on first bodies do not show all free
-            // directions.
-            .and_then(|c| c.least_norm(&lambda, NormWeights::NEWTON_METRE).ok());
+        // There is no least norm if the wrenches on first bodies do not show all free directions.
+        let least = configuration.least_norm(&lambda, NormWeights::NEWTON_METRE);
+        let least = least.ok();
         let without = self.eliminations.iter().map(|rows| {
             let to_zero = rows.iter().map(|&i| -lambda[i]).collect();
             firmly_solved(&z, rows, to_zero).map(|y| moved(&lambda, &z, &y))
@@ -275,7 +273,7 @@ impl<'a> Set<'a> {
                 mechanism.space(),
                 &free,
                 &self.turns(s),
-                scene_size(mechanism, &q),
+                configuration.size(),
             ),
         }
     }

@@ -83,8 +83,7 @@ impl Path {
             rows: plan.rows.value,
             accelerations: false,
             reactions: Reactions::None,
-            groups: Vec::new(),
-            choices: Vec::new(),
+            ..Wanted::default()
         };
         let other_plan = Plan::new(other, plan.options(), &wanted)?;
         let space = other.mechanism.space();

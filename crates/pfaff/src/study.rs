@@ -7,7 +7,7 @@ use std::sync::Mutex;
 
 use dynamics::equilibrium::{Equilibrium, EquilibriumError, EquilibriumOptions, equilibrium};
 use dynamics::linearise::{Linearisation, LineariseOptions, linearise};
-use dynamics::plan::{Reactions, Rows};
+use dynamics::plan::{Reactions, Rows, Verdicts};
 use dynamics::{
     Failure, Method, MotionError, MotionFault, MotionOptions, Plan, Prepared, Sample,
     Stabilisation, Stop, Summary, Wanted, simulate_until,
@@ -432,12 +432,21 @@ impl Study {
             t_end: 0.0,
             ..self.motion_to(1.0)
         };
-        let begun = self.run(&options, |sample| {
-            sample.reactions()?;
-            Ok(ControlFlow::Break(()))
+        let wanted = Wanted {
+            accelerations: false,
+            verdicts: Verdicts::None,
+            ..Wanted::default()
+        };
+        let plan = Plan::new(&self.prepared, &options, &wanted);
+        let begun = plan.and_then(|plan| {
+            let begun = plan.simulate(|sample| {
+                sample.reactions()?;
+                Ok(ControlFlow::Break(()))
+            });
+            begun.map_err(|failure| failure.error)
         });
-        let failure = begun.err()?;
-        Some(format!("this mechanism cannot be moved: {}", failure.error))
+        let error = begun.err()?;
+        Some(format!("this mechanism cannot be moved: {error}"))
     }
 
     /// Adds to the document of the start what speaks against a motion: drives that contradict each
@@ -458,8 +467,8 @@ impl Study {
         self.state_until(t, &|| false)
     }
 
-    /// The state at a time of the motion; at t = 0 no run is needed. `stop` is asked at each
-    /// evaluation of the run.
+    /// The state at a time of the motion, that of a row of its tables at this time; at t = 0 no run
+    /// is needed. `stop` is asked at each evaluation of the run.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -478,39 +487,58 @@ impl Study {
     /// - [`StudyError::Motion`]: the motion does not reach that time.
     /// - [`StudyError::Interrupted`]: `stop` returned true.
     pub fn state_until(&self, t: f64, stop: &Stop<'_>) -> Result<State, StudyError> {
-        let mut state = State {
-            q: self.prepared.q.clone(),
-            v: self.prepared.v.clone(),
-        };
         if t == 0.0 {
-            return Ok(state);
+            return Ok(State {
+                q: self.prepared.q.clone(),
+                v: self.prepared.v.clone(),
+            });
         }
-        let mut reached = false;
+        let own = self.motion_to(t);
+        match self.reached(t, &own, stop) {
+            // The motion that the scene states may not begin for what comes later.
+            Err(StudyError::Motion(_)) if own.t_end > t => {
+                let shorter = MotionOptions { t_end: t, ..own };
+                self.reached(t, &shorter, stop)
+            }
+            state => state,
+        }
+    }
+
+    /// The state at a later time of a motion with a row there.
+    fn reached(
+        &self,
+        t: f64,
+        options: &MotionOptions,
+        stop: &Stop<'_>,
+    ) -> Result<State, StudyError> {
+        let mut state = None;
         let wanted = Wanted {
             accelerations: false,
             reactions: Reactions::None,
             ..Wanted::default()
         };
-        let plan = Plan::new(&self.prepared, &self.motion_to(t), &wanted)?;
+        let plan = Plan::new(&self.prepared, options, &wanted)?;
         plan.simulate_watched(&|_| ControlFlow::Continue(()), stop, |sample| {
-            state.q.copy_from_slice(sample.q);
-            state.v.copy_from_slice(sample.v);
-            reached = sample.t >= t;
-            Ok(ControlFlow::Continue(()))
+            if sample.t < t {
+                return Ok(ControlFlow::Continue(()));
+            }
+            state = Some(State {
+                q: sample.q.to_vec(),
+                v: sample.v.to_vec(),
+            });
+            Ok(ControlFlow::Break(()))
         })
         .map_err(|f| f.error)?;
-        if reached {
-            Ok(state)
-        } else {
-            Err(StudyError::Interrupted)
-        }
+        state.ok_or(StudyError::Interrupted)
     }
 
-    /// Options of the run that reaches the state at a later time.
+    /// Options of a run with a row at a time. Its steps are those of the motion that the scene
+    /// states: a run that ended there would take other steps, and be another motion within its
+    /// tolerance.
     fn motion_to(&self, t: f64) -> MotionOptions {
         let base = self.options.clone().unwrap_or_else(|| MotionOptions::to(t));
         MotionOptions {
-            t_end: t,
+            t_end: base.t_end.max(t),
             output_step: t,
             ..base
         }
@@ -1023,8 +1051,7 @@ fn wanted(output: &Output) -> Wanted {
         // No table contains accelerations.
         accelerations: false,
         reactions,
-        groups: Vec::new(),
-        choices: Vec::new(),
+        ..Wanted::default()
     }
 }
 

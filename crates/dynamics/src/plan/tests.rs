@@ -187,8 +187,7 @@ fn rows_that_nobody_wants_are_not_computed() {
         rows: Rows::Ends,
         accelerations: false,
         reactions: Reactions::None,
-        groups: Vec::new(),
-        choices: Vec::new(),
+        ..Wanted::default()
     };
     let plan = Plan::new(&p, &to(2.0), &wanted).expect("a plan");
     let mut times = Vec::new();
@@ -237,8 +236,7 @@ fn interpolated_rows_are_those_on_the_constraints_to_the_tolerance() {
             rows,
             accelerations: false,
             reactions: Reactions::None,
-            groups: Vec::new(),
-            choices: Vec::new(),
+            ..Wanted::default()
         };
         let plan = Plan::new(&p, &to(2.0), &wanted).expect("a plan");
         let mut states = Vec::new();

@@ -19,7 +19,7 @@ use crate::code::SceneCode;
 use crate::error::{MotionError, MotionFault};
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
-use crate::plan::{self, ComponentPlan, Plan};
+use crate::plan::{self, ComponentPlan, Plan, Verdicts};
 use crate::prepare::Prepared;
 
 /// The failure of a run that has not begun.
@@ -69,7 +69,9 @@ pub(super) fn run_component(
         .components
         .iter()
         .any(|c| !c.decisions.reactions.value.is_empty());
-    let verdicts = has_verdicts.then(|| RunVerdicts::new(&motion, prepared, options, &groups));
+    let has_verdicts = has_verdicts && plan.verdicts != Verdicts::None;
+    let verdicts = has_verdicts
+        .then(|| RunVerdicts::new(&motion, prepared, options, (&groups, plan.verdicts)));
     let choices = carried_choices(plan, component, &wanted).map_err(not_begun)?;
     let wanted = (wanted, verdicts);
     let choices = (plan.choices.as_slice(), choices);

@@ -11,6 +11,7 @@ use crate::error::MotionFault;
 use crate::events::ReactionImpulse;
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
+use crate::plan::Verdicts;
 use crate::prepare::Prepared;
 
 /// What is noted of the verdicts of a run.
@@ -23,6 +24,9 @@ pub(super) struct RunVerdicts<'m> {
     dropped: Vec<DroppedRows>,
     /// The last event, break or begin (s).
     last_cut: f64,
+    wanted: Verdicts,
+    /// Number of rows of output since the last step with an event or a break.
+    rows: usize,
 }
 
 impl<'m> RunVerdicts<'m> {
@@ -31,16 +35,22 @@ impl<'m> RunVerdicts<'m> {
         motion: &KeptRowMotion<'m>,
         prepared: &Prepared,
         options: &MotionOptions,
-        groups: &[Group],
+        (groups, wanted): (&[Group], Verdicts),
     ) -> Self {
         let mechanism = motion.mechanism();
         let dropped = &prepared.decision.dropped;
         let start = (0.0, prepared.q.as_slice());
+        let mut carried = CarriedVerdicts::new(mechanism, start, dropped, options.rtol, groups);
+        if let (Some(carried), Verdicts::Stretches) = (&mut carried, wanted) {
+            carried.leave_out_instants();
+        }
         Self {
-            carried: CarriedVerdicts::new(mechanism, start, dropped, options.rtol, groups),
+            carried,
             dependencies: Vec::new(),
             dropped: Vec::new(),
             last_cut: 0.0,
+            wanted,
+            rows: 0,
         }
     }
 
@@ -57,6 +67,12 @@ impl<'m> RunVerdicts<'m> {
         is_factored: bool,
     ) -> Result<(), MotionFault> {
         self.note_row(motion, state.0);
+        if self.wanted == Verdicts::Stretches && state.0 > 0.0 {
+            self.rows += 1;
+            if !self.rows.is_power_of_two() {
+                return Ok(());
+            }
+        }
         self.look(motion, state, is_factored, Looked::Next)
     }
 
@@ -168,6 +184,9 @@ impl<'m> RunVerdicts<'m> {
             cuts.push(t1);
         }
         cuts.dedup();
+        if !events.is_empty() || ends_there {
+            self.rows = 0;
+        }
         events.iter().for_each(|&t| carried.cut(t));
         if let Some(&last) = cuts.last() {
             self.last_cut = self.last_cut.max(last);

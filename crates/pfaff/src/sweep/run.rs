@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dynamics::plan::{Reactions, Rows};
+use dynamics::plan::{Reactions, Rows, Verdicts};
 use dynamics::{
     Event, EventKind, MotionFault, MotionOptions, Plan, Prepared, Sample, SceneCode, Stop, Summary,
     Wanted,
@@ -102,6 +102,8 @@ impl Begun {
             reactions: Reactions::Of(watch.names()),
             groups: Vec::new(),
             choices: Vec::new(),
+            // A row of a sweep has no instants.
+            verdicts: Verdicts::Stretches,
         };
         let row = |sample: &mut Sample<'_, '_>| {
             watch.see(sample)?;

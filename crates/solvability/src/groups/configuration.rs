@@ -6,12 +6,13 @@ use std::borrow::Cow;
 
 use linalg::Matrix;
 use model::start::scene_size;
-use model::{Layout, Mechanism, System};
+use model::{Layout, Mechanism, Scratch, System};
 use rank::RankDecision;
 
 use super::error::{RequestError, check};
 use super::form::LinearForm;
 use super::reactions::ReactionForms;
+use crate::error::AnalysisError;
 use crate::matrices::Solvability;
 use crate::verdict::Judgement;
 
@@ -36,6 +37,30 @@ impl<'a> Configuration<'a> {
         decision: &RankDecision,
     ) -> Result<Self, RequestError> {
         Self::of(Cow::Borrowed(mechanism), t, q, decision)
+    }
+
+    /// Decides the rank of C at a configuration, as [`crate::decide`].
+    ///
+    /// # Errors
+    /// - [`AnalysisError::Rank`]: C is not finite.
+    pub fn decided(mechanism: &'a Mechanism, t: f64, q: &[f64]) -> Result<Self, AnalysisError> {
+        let s = evaluated(mechanism, t, q);
+        let size = scene_size(mechanism, q);
+        let (c, uncertainty) = (
+            dimensionless(mechanism, &s, size),
+            uncertainty(mechanism, &s, size),
+        );
+        let decision = rank::decide(&c, &uncertainty);
+        let decision = decision.map_err(|source| AnalysisError::Rank { time: t, source })?;
+        Ok(Self {
+            uncertainty,
+            reactions: ReactionForms {
+                mechanism: Cow::Borrowed(mechanism),
+                s: Cow::Owned(s),
+                size,
+            },
+            solvability: Solvability::from_decision(&c, decision),
+        })
     }
 
     /// Like [`Self::new`], for a mechanism that the caller gives away.
@@ -88,6 +113,18 @@ impl<'a> Configuration<'a> {
     #[must_use]
     pub fn reactions(&self) -> &ReactionForms<'a> {
         &self.reactions
+    }
+
+    /// Φ and C at the configuration.
+    #[must_use]
+    pub fn scratch(&self) -> &Scratch {
+        &self.reactions.s
+    }
+
+    /// The size of the mechanism there (m).
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.reactions.size
     }
 
     /// Rows and columns of the mechanism.

@@ -34,6 +34,8 @@ pub struct CarriedVerdicts<'m> {
     parts: Vec<OpenPart<'m>>,
     groups: Vec<Group>,
     recorder: VerdictRecorder,
+    /// Times at which stretches begin (s), ascending, if instants that differ are left out.
+    ends: Option<Vec<f64>>,
 }
 
 /// Joints on common cycles whose rows depend on each other.
@@ -48,6 +50,9 @@ struct OpenPart<'m> {
     known: Option<Accuracy>,
     /// Number of states since the last cut at which these vectors left a number open.
     open: usize,
+    /// By joint or drive, the stretch in which none of its numbers is determined, if instants that
+    /// differ are left out.
+    free: Vec<Option<usize>>,
 }
 
 /// Accuracy of vectors of a left null space.
@@ -97,6 +102,7 @@ impl<'m> CarriedVerdicts<'m> {
             redundancy,
             known: None,
             open: 0,
+            free: Vec::new(),
         });
         let parts = parts.collect();
         let mut carried = Self {
@@ -106,9 +112,27 @@ impl<'m> CarriedVerdicts<'m> {
             parts,
             groups: groups.to_vec(),
             recorder: VerdictRecorder::new(0),
+            ends: None,
         };
         carried.recorder = VerdictRecorder::new(carried.numbers().len());
         Some(carried)
+    }
+
+    /// Leaves out instants that differ from their stretch: a joint or drive without a determined
+    /// number is not read again in that stretch.
+    pub fn leave_out_instants(&mut self) {
+        self.ends = Some(self.mechanism.layout().break_times.clone());
+        for part in &mut self.parts {
+            part.free = vec![None; part.mechanism.layout().groups.len()];
+        }
+    }
+
+    /// The number of the stretch that has this time inside, if instants that differ are left out.
+    fn stretch(&self, t: f64) -> Option<usize> {
+        let ends = self.ends.as_ref()?;
+        let begun = ends.partition_point(|end| *end <= t);
+        let is_inside = t > 0.0 && begun.checked_sub(1).is_none_or(|k| ends[k] < t);
+        is_inside.then_some(begun)
     }
 
     /// Takes the verdicts at a state. Where C cannot be analysed they are undecided, with the
@@ -164,8 +188,13 @@ impl<'m> CarriedVerdicts<'m> {
         } else {
             self.accuracy
         };
+        let stretch = self.stretch(at.t);
         for part in &mut self.parts {
-            verdicts.extend(part.verdicts(self.mechanism, at, known, &forms)?);
+            let own = part.verdicts(self.mechanism, at, (known, stretch), &forms)?;
+            if let Some(stretch) = stretch {
+                part.note_free(&own, stretch);
+            }
+            verdicts.extend(own);
         }
         Ok(verdicts)
     }
@@ -173,6 +202,9 @@ impl<'m> CarriedVerdicts<'m> {
     /// Begins another stretch.
     pub fn cut(&mut self, t: f64) {
         self.parts.iter_mut().for_each(|part| part.open = 0);
+        if let Some(ends) = &mut self.ends {
+            ends.insert(ends.partition_point(|end| *end <= t), t);
+        }
         self.recorder.cut(t);
     }
 
@@ -254,13 +286,18 @@ impl OpenPart<'_> {
         &mut self,
         whole: &Mechanism,
         at: &CarriedState<'_>,
-        known: Known,
+        (known, stretch): (Known, Option<usize>),
         forms: &[LinearForm],
     ) -> Result<Verdicts, AnalysisError> {
         let of_motion = known != Known::AsStored;
         if of_motion && let Some(accuracy) = &self.known {
             let basis = self.carried_basis(whole, at, accuracy);
-            let found = self.judged(whole, at, forms, &|_| Cow::Borrowed(&basis));
+            let is_free = |own: usize| {
+                let free = self.free.get(own).copied().flatten();
+                free.is_some() && free == stretch
+            };
+            let basis = |_: &[usize]| Cow::Borrowed(&basis);
+            let found = self.judged(whole, at, forms, (&basis, &is_free));
             let found = found.map_err(|source| AnalysisError::Query { time: at.t, source })?;
             if found.iter().all(Verdict::is_decided) {
                 return Ok(found.into_iter().map(Some).collect());
@@ -300,7 +337,7 @@ impl OpenPart<'_> {
                 decision.status == RankStatus::Decided && decision.redundancy == self.redundancy;
             let solvability = Solvability::from_decision(&rows.matrix(), decision);
             let basis = solvability.basis();
-            let found = self.judged(whole, at, forms, &|_| Cow::Borrowed(basis));
+            let found = self.judged(whole, at, forms, (&|_| Cow::Borrowed(basis), &|_| false));
             let (scaling, sigma) = {
                 let decision = solvability.decision();
                 (&decision.scaling, decision.evidence.sigma_r)
@@ -320,7 +357,8 @@ impl OpenPart<'_> {
             let decided = Decided::of(&self.mechanism, &s, &q, 0..self.rows.len())?;
             let is_of_motion =
                 decided.found.is_decided() && decided.found.redundancy == self.redundancy;
-            let found = self.judged(whole, at, forms, &|rows| Cow::Owned(decided.basis(rows)));
+            let basis = |rows: &[usize]| Cow::Owned(decided.basis(rows));
+            let found = self.judged(whole, at, forms, (&basis, &|_| false));
             let all: Vec<usize> = (0..self.rows.len()).collect();
             let size = model::start::scene_size(&self.mechanism, &q);
             let (scaling, sigma) = (&decided.found.scaling, decided.found.evidence.sigma_r);
@@ -420,18 +458,38 @@ impl OpenPart<'_> {
         sums.map(|(sum, factor)| sum * factor).fold(0.0, f64::hypot)
     }
 
+    /// Takes note of joints and drives without a determined number at an instant of a stretch.
+    fn note_free(&mut self, verdicts: &Verdicts, stretch: usize) {
+        let mut verdicts = verdicts.iter();
+        let groups = self.mechanism.layout().groups.iter();
+        for (group, free) in groups.zip(&mut self.free) {
+            let count = component_names(group).count();
+            let own = verdicts.by_ref().take(count);
+            let is_free = |v: &&Option<Verdict>| matches!(v, Some(Verdict::NotUnique));
+            if own.filter(is_free).count() == count && count > 0 {
+                *free = Some(stretch);
+            }
+        }
+    }
+
     /// The verdicts on all numbers of the part, with a basis for rows of the part. A basis of all
-    /// rows may be given for some of them.
+    /// rows may be given for some of them. Numbers of joints and drives that are known to be free
+    /// are not unique.
     fn judged<'b>(
         &self,
         whole: &Mechanism,
         at: &CarriedState<'_>,
         forms: &[LinearForm],
-        basis: &dyn Fn(&[usize]) -> Cow<'b, Basis>,
+        (basis, is_free): (&dyn Fn(&[usize]) -> Cow<'b, Basis>, &dyn Fn(usize) -> bool),
     ) -> Result<Vec<Verdict>, QueryError> {
         let mut verdicts = Vec::new();
         for (own, group) in self.mechanism.layout().groups.iter().enumerate() {
             let id = ConstraintId(self.extent.group(own));
+            if is_free(own) {
+                let count = component_names(group).count();
+                verdicts.resize(verdicts.len() + count, Verdict::NotUnique);
+                continue;
+            }
             let rows: Vec<usize> = group.rows.iter().collect();
             let basis = basis(&rows);
             let places = places(&basis, &rows, self.rows.len());
