@@ -32,7 +32,7 @@
 //! | [`sensitivity`] | how much unique numbers of reactions depend on the data |
 //! | [`mod@second_order`] | whether the motion is unique at a drop of rank |
 //! | [`mod@stretches`] | verdicts of a run, by stretches of time and component |
-//! | [`along`] | verdicts along a motion: the generic verdict, and the times of others |
+//! | [`along`] | verdicts along a motion by stretches of time, and its singular configurations |
 //! | `words` | lists, numbers and vectors in sentences |
 //! | `loads` | forces and moments in space that joints share, as sentences |
 

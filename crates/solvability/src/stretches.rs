@@ -100,6 +100,11 @@ impl VerdictTrack {
         &self.special
     }
 
+    /// Leaves out special instants that are not confirmed.
+    pub(crate) fn confirm(&mut self, is_so: impl Fn(&SpecialInstant) -> bool) {
+        self.special.retain(is_so);
+    }
+
     /// Adds an instant that was looked at besides, if another verdict holds there than on its
     /// stretch.
     pub(crate) fn look(&mut self, time: f64, verdict: &Verdict) {

@@ -84,8 +84,8 @@ pub(super) fn describe(along: &AlongDocument) -> String {
         out.push_str("- nothing else holds at any time\n");
     }
     if special.len() > INSTANTS {
-        let more = special.len() - INSTANTS;
-        out.push_str(&format!("- and {more} instants more (`--json` has all)\n"));
+        let more = count(special.len() - INSTANTS, "instant more", "instants more");
+        out.push_str(&format!("- and {more} (`--json` has all)\n"));
     }
     if along.reach > COARSE {
         let between = format!(

@@ -271,8 +271,8 @@ fn what_is_zero_is_printed_as_zero() {
     );
 }
 
-/// An edge has no force along itself: that this component is unique (zero) is not reported, and an
-/// instant at which it becomes zero is not reported either.
+/// An edge has no force along itself: that this component is unique (zero) is not reported. Where it
+/// becomes zero for an instant is no singular configuration.
 #[test]
 fn directions_without_any_force_are_no_findings() {
     let d = analysis("car", &["--along"]);
@@ -294,11 +294,12 @@ fn directions_without_any_force_are_no_findings() {
 #[test]
 fn an_instant_at_the_start_is_the_start() {
     let d = analysis("peaucellier", &["--along"]);
-    let passage = &d["along"]["passages"][0];
-    assert_eq!(passage["time"], 0.0);
+    assert_eq!(d["along"]["passages"], json!([]));
+    let start = json!({ "time": 0.0, "name": "Q", "component": "Fy", "verdict": "unique" });
+    assert_eq!(d["along"]["special"], json!([start]));
     contains(
-        passage["text"].as_str().expect("a text"),
-        &["at t = 0 s other"],
+        &words("peaucellier", &["--along"]),
+        &["at t = 0 s, for an instant, unique: Q.Fy"],
     );
 }
 

@@ -3,6 +3,7 @@
 use model::{Layout, Mechanism, System};
 
 use super::data::Difference;
+use super::path::Sample;
 use crate::stretches::{Stretches, worst};
 use crate::verdict::{Judgement, Verdict};
 
@@ -31,6 +32,18 @@ pub(super) fn differences(
         }));
     }
     found
+}
+
+/// Leaves out special instants of a run at which the verdicts of the motion itself are others: the
+/// states of a run are less accurate, and near such an instant they do not differ from it.
+pub(super) fn confirm(verdicts: &mut Stretches, samples: &[Sample]) {
+    for (k, track) in verdicts.components_mut().enumerate() {
+        track.confirm(|special| {
+            let place = samples.binary_search_by(|s| s.t.total_cmp(&special.time));
+            let here = place.map(|place| samples[place].judged[k].verdict.word());
+            here.is_ok_and(|word| word == special.verdict.word())
+        });
+    }
 }
 
 fn name_of(layout: &Layout, group: usize) -> String {
