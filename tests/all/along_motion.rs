@@ -261,6 +261,18 @@ fn every_flat_pose_and_every_upright_one_of_several_turns() {
     assert_eq!(along.passages.len(), 6);
 }
 
+/// θ = π/2 + t⁶: for some samples the cranks are upright to rounding, and for more it is not
+/// decided whether they are. The start is the instant.
+#[test]
+fn cranks_that_leave_their_upright_pose_slowly_are_upright_once() {
+    let motion = |t: f64| parallel(&THREE, FRAC_PI_2 + t.powi(6), 6.0 * t.powi(5));
+    let along = along_motion(&free(&THREE), motion, &times(0.0, 1.0, 300)).expect("judged");
+    for reaction in 0..along.verdicts.reactions.len() {
+        assert_eq!(special(&along, reaction, "Fx"), [(0.0, "unique")]);
+        assert_eq!(special(&along, reaction, "Fy"), []);
+    }
+}
+
 /// θ = 3·(t − 0.41…)·(t − 0.97) is 1.2 and 0.05 at the two samples and passes zero twice between
 /// them.
 #[test]

@@ -8,23 +8,22 @@
 //! depend on time, time changes as well.
 
 mod leaving;
+mod walker;
 
+use linalg::Matrix;
+use model::start::scene_size;
+use model::{ConstraintId, Mechanism, System};
+use rank::RankDecision;
+
+use crate::certificate::Rows;
 use crate::components::{all_components, judge_all};
-use crate::limits::{
-    GENERIC_HALVINGS, GENERIC_HOLDS, GENERIC_STEP, GENERIC_STEPS, GENERIC_STRAYED, ONE_PART,
-    POINTS, POINTS_APART, WALKS,
-};
+use crate::limits::{ONE_PART, POINTS, POINTS_APART, WALKS};
 use crate::matrices::Solvability;
 use crate::pose::{dimensionless, uncertainty, velocity_units};
 use crate::stretches::worst;
 use crate::verdict::Verdict;
 use leaving::Leaving;
-use linalg::{Matrix, PivotedQr};
-use model::start::{Metric, nearest_configuration, scene_size};
-use model::{ConstraintId, DataBlock, Mechanism, SHARED, System};
-use rank::RankDecision;
-
-use crate::certificate::{Rows, holding_together};
+use walker::{Lasting, Walker, has_lasting_function};
 
 /// Redundancy at other configurations of the same component.
 #[derive(Clone, Debug, PartialEq)]
@@ -217,239 +216,6 @@ pub fn is_permanent(
     Some(found.redundancy == decision.redundancy)
 }
 
-/// Rows of Φ that do not belong to drives.
-struct Lasting {
-    /// Rows that are satisfied at other points.
-    held: Vec<usize>,
-    /// Rows that are redundant within a stated tolerance, ascending: at other points they have
-    /// residuals.
-    dropped: Vec<usize>,
-}
-
-impl Lasting {
-    fn of(mechanism: &Mechanism, t: f64, q: &[f64]) -> Self {
-        let layout = mechanism.layout();
-        let lasting = layout.groups.iter().filter(|g| !g.is_drive());
-        let mut dropped: Vec<usize> = lasting.flat_map(|g| g.rows.holonomic.clone()).collect();
-        let held = holding_together(mechanism, t, q, dropped.clone());
-        dropped.retain(|row| !held.contains(row));
-        Self { held, dropped }
-    }
-
-    /// Whether data within the tolerance explain the residuals of the dropped rows at a point at
-    /// which the others are satisfied. On another branch of the held rows they do not.
-    fn agree(&self, mechanism: &Mechanism, t: f64, q: &[f64]) -> bool {
-        if self.dropped.is_empty() {
-            return true;
-        }
-        let s = crate::pose::evaluated(mechanism, t, q);
-        let c = dimensionless(mechanism, &s, scene_size(mechanism, q));
-        let held = PivotedQr::of_rows(c.select_rows(&self.held));
-        let blocks = mechanism.data().blocks(&s);
-        self.dropped.iter().all(|&row| {
-            // The dependency `row − Σ t_k·row k` of the held rows k.
-            let mut t = c.row(row).to_vec();
-            held.q_transpose_mul(&mut t);
-            t.truncate(self.held.len());
-            held.solve_r(&mut t);
-            let mut z = vec![0.0; mechanism.layout().rows()];
-            z[row] = 1.0;
-            for (t, &k) in t.iter().zip(held.permutation()) {
-                z[self.held[k]] = -t;
-            }
-            let explained = SHARED
-                * mechanism
-                    .data()
-                    .phi_change(&s, &z, &blocks, DataBlock::known_to);
-            s.phi[row].abs() <= explained
-        })
-    }
-}
-
-/// Walks along the motions that the constraints allow without the drives.
-struct Walker<'m> {
-    mechanism: &'m Mechanism,
-    rows: Lasting,
-    /// Units of the velocities in a mechanism of size one.
-    units: Vec<f64>,
-    size: f64,
-    leaving: Leaving<'m>,
-    /// Whether a constraint that is not a drive depends on time.
-    moves_time: bool,
-}
-
-impl Walker<'_> {
-    /// The last point of one walk, if it moved away from the start.
-    fn walk_from(&self, from: &(f64, Vec<f64>), walk: usize) -> Option<(f64, Vec<f64>)> {
-        // Different step lengths prevent the walks from returning to the start.
-        let stride = GENERIC_STEP * (1.0 + 0.5 * spread(walk + 1));
-        let (mut t, mut q) = from.clone();
-        let mut before = from.clone();
-        let mut heading: Option<Vec<f64>> = None;
-        for _ in 0..GENERIC_STEPS {
-            let (free, kept) = self.free_directions(t, &q)?;
-            let Some(directions) = self.leaving.possible(free, (t, &q), &self.units) else {
-                (t, q) = before;
-                break;
-            };
-            if directions.nrows() == 0 && !self.moves_time {
-                break;
-            }
-            let ahead = match &heading {
-                None => mixed(&directions, walk),
-                // The projection of the last step onto the free directions.
-                Some(last) => directions.transpose_times(&directions.times(last)),
-            };
-            let step = |ahead: Vec<f64>| {
-                let there = self.step((t, &q), &kept, &ahead, stride)?;
-                Some((there, ahead))
-            };
-            // Where branches meet, a mixture of their directions may lead nowhere.
-            let next = step(ahead).or_else(|| {
-                let mut branches = match heading {
-                    None => self.leaving.branches((t, &q), &self.units),
-                    Some(_) => Vec::new(),
-                };
-                let first = walk % branches.len().max(1);
-                branches.rotate_left(first);
-                branches.into_iter().find_map(step)
-            });
-            let Some(((later, there), ahead)) = next else {
-                break;
-            };
-            heading = Some(ahead);
-            before = (t, q);
-            (t, q) = (later, there);
-        }
-        ((t, &q) != (from.0, &from.1)).then_some((t, q))
-    }
-
-    /// The configuration after a step along a velocity without dimensions, of the stride or of a
-    /// halved one.
-    fn step(
-        &self,
-        (t, q): (f64, &[f64]),
-        kept: &[usize],
-        ahead: &[f64],
-        stride: f64,
-    ) -> Option<(f64, Vec<f64>)> {
-        let mechanism = self.mechanism;
-        let step: Vec<f64> = ahead
-            .iter()
-            .zip(&self.units)
-            .map(|(d, unit)| d * unit)
-            .collect();
-        let largest = self.length(step.iter().copied());
-        let time = if self.moves_time { stride } else { 0.0 };
-        (0..GENERIC_HALVINGS).find_map(|halving| {
-            let share = 0.5_f64.powi(halving);
-            let length = if largest > 0.0 { stride * share } else { 0.0 };
-            let factor = if largest > 0.0 { length / largest } else { 0.0 };
-            let moved = mechanism.space().displaced(q, factor, &step);
-            let later = t + time * share;
-            let on = |rows: &[usize]| {
-                let there = nearest_configuration(mechanism, later, rows, &moved, Metric::Length);
-                let there = there.ok()?;
-                // A correction as long as the step leads to another branch.
-                let has_strayed =
-                    !self.moves_time && self.apart(&there, &moved) > GENERIC_STRAYED * length;
-                (!has_strayed).then_some(there)
-            };
-            // Where rows stay redundant, those that are kept determine more digits: the others
-            // hold a rotation that they block only to the root of rounding.
-            let there = on(kept).filter(|there| self.hold(later, there));
-            let there = there.or_else(|| on(&self.rows.held))?;
-            self.rows
-                .agree(mechanism, later, &there)
-                .then_some((later, there))
-        })
-    }
-
-    /// Whether all rows that are held are satisfied to rounding.
-    fn hold(&self, t: f64, q: &[f64]) -> bool {
-        let s = crate::pose::evaluated(self.mechanism, t, q);
-        let scales = self.mechanism.scales(&s);
-        let mut held = self.rows.held.iter();
-        held.all(|&i| s.phi[i].abs() <= GENERIC_HOLDS * scales.position(i))
-    }
-
-    /// Basis of the dimensionless velocities that the held rows of Φq allow, one velocity in each
-    /// row, and independent rows among them.
-    fn free_directions(&self, t: f64, q: &[f64]) -> Option<(Matrix, Vec<usize>)> {
-        let s = crate::pose::evaluated(self.mechanism, t, q);
-        let mut phi_q = self
-            .mechanism
-            .layout()
-            .dense(&s)
-            .select_rows(&self.rows.held);
-        for i in 0..phi_q.nrows() {
-            let row = phi_q.row_mut(i).iter_mut();
-            row.zip(&self.units)
-                .for_each(|(entry, unit)| *entry *= unit);
-        }
-        let n = phi_q.ncols();
-        let decision = rank::decide(&phi_q, 0.0).ok()?;
-        let kept = phi_q.select_rows(&decision.kept);
-        let free = PivotedQr::of_rows(kept).q_columns(decision.rank..n);
-        let rows = decision.kept.iter().map(|&k| self.rows.held[k]);
-        Some((free.transpose(), rows.collect()))
-    }
-
-    /// The rank of the compared rows at a point, if it is decided there.
-    fn elsewhere(
-        &self,
-        (t, q): &(f64, Vec<f64>),
-        compared: &[usize],
-    ) -> Option<(OtherConfiguration, DecidedRows)> {
-        let mechanism = self.mechanism;
-        let mut s = crate::pose::evaluated(mechanism, *t, q);
-        // Drives were left out of the walk, and have other values at this configuration. A row that
-        // was left out because it is redundant within a tolerance has to agree there with the
-        // others.
-        let drives = mechanism.layout().groups.iter().filter(|g| g.is_drive());
-        for rows in drives.map(|g| g.rows.holonomic.clone()) {
-            s.phi[rows].fill(0.0);
-        }
-        let (decision, c) = if self.leaving.excludes() {
-            // Rows that block a rotation at second order hold it to the root of rounding only.
-            let known = f64::EPSILON.sqrt();
-            let c = dimensionless(mechanism, &s, scene_size(mechanism, q)).select_rows(compared);
-            (rank::decide(&c, known).ok()?, c)
-        } else {
-            let rows = Rows::in_double(mechanism, &s, q).select(compared);
-            (rows.decide().ok()?, rows.matrix())
-        };
-        let point = OtherConfiguration {
-            time: *t,
-            q: q.clone(),
-            rank: decision.rank,
-            redundancy: mechanism.layout().rows() - decision.rank,
-        };
-        decision
-            .is_decided()
-            .then(|| (point, DecidedRows { decision, c }))
-    }
-
-    /// The largest component of a displacement, as a fraction of the size of the mechanism or in
-    /// radians.
-    fn length(&self, d: impl Iterator<Item = f64>) -> f64 {
-        d.zip(&self.units)
-            .map(|(d, unit)| (d / unit / self.size).abs())
-            .fold(0.0, f64::max)
-    }
-
-    /// The distance of two configurations, in the same measure.
-    fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
-        self.length(self.mechanism.difference_of(a, b).into_iter())
-    }
-}
-
-/// Whether a constraint that is not a drive depends on time.
-fn has_lasting_function(mechanism: &Mechanism) -> bool {
-    let mut groups = mechanism.layout().groups.iter();
-    groups.any(|g| g.spec.rheonomic && !g.is_drive())
-}
-
 /// The rows whose rank is compared: all, but of the rows that are dropped at (t, q) only those that
 /// are dependent to rounding. The others are redundant within a stated tolerance, which has been
 /// found at several configurations.
@@ -477,17 +243,4 @@ fn compared_rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Vec<usize>>
     let mut rows: Vec<usize> = here.kept.iter().copied().chain(dependent).collect();
     rows.sort_unstable();
     Some(rows)
-}
-
-/// A combination of all directions with coefficients that do not repeat.
-fn mixed(directions: &Matrix, walk: usize) -> Vec<f64> {
-    let first = walk * directions.nrows() + 1;
-    let coefficients: Vec<f64> = (0..directions.nrows()).map(|i| spread(first + i)).collect();
-    directions.transpose_times(&coefficients)
-}
-
-/// Numbers spread evenly between −½ and ½: the fractional parts of multiples of the golden ratio.
-fn spread(k: usize) -> f64 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    (GOLDEN * k as f64).fract() - 0.5
 }

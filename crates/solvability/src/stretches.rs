@@ -100,9 +100,10 @@ impl VerdictTrack {
         &self.special
     }
 
-    /// Leaves out special instants that are not confirmed.
-    pub(crate) fn confirm(&mut self, is_so: impl Fn(&SpecialInstant) -> bool) {
-        self.special.retain(is_so);
+    /// Leaves out special instants that are not confirmed, given in their order.
+    pub(crate) fn confirm(&mut self, confirmed: &[bool]) {
+        let mut confirmed = confirmed.iter();
+        self.special.retain(|_| confirmed.next() == Some(&true));
     }
 
     /// Adds an instant that was looked at besides, if another verdict holds there than on its

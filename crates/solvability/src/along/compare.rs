@@ -4,7 +4,7 @@ use model::{Layout, Mechanism, System};
 
 use super::data::Difference;
 use super::path::Sample;
-use crate::stretches::{Stretches, worst};
+use crate::stretches::{SpecialInstant, Stretches, worst};
 use crate::verdict::{Judgement, Verdict};
 
 /// Lists the verdicts at an instant that differ from those of its stretches: of each reaction as a
@@ -35,14 +35,29 @@ pub(super) fn differences(
 }
 
 /// Leaves out special instants of a run at which the verdicts of the motion itself are others: the
-/// states of a run are less accurate, and near such an instant they do not differ from it.
+/// states of a run are less accurate, and near such an instant they do not differ from it. Of
+/// several samples side by side that do not differ from it by more than rounding, the first of the
+/// motion or else the one with the smallest margin is the instant.
 pub(super) fn confirm(verdicts: &mut Stretches, samples: &[Sample]) {
     for (k, track) in verdicts.components_mut().enumerate() {
-        track.confirm(|special| {
+        let is_special = |place: usize| {
+            let here = samples[place].judged[k].verdict.word();
+            here != track.at(samples[place].t).word()
+        };
+        let margin = |place: usize| samples[place].judged[k].margin;
+        let is_so = |special: &SpecialInstant| {
             let place = samples.binary_search_by(|s| s.t.total_cmp(&special.time));
-            let here = place.map(|place| samples[place].judged[k].verdict.word());
-            here.is_ok_and(|word| word == special.verdict.word())
-        });
+            place.is_ok_and(|place| {
+                let after = (place + 1 < samples.len()).then_some(place + 1);
+                let mut beside = place.checked_sub(1).into_iter().chain(after);
+                let is_nearer = |other: usize| {
+                    is_special(other) && (other == 0 || place > 0 && margin(other) < margin(place))
+                };
+                is_special(place) && !beside.any(is_nearer)
+            })
+        };
+        let confirmed: Vec<bool> = track.special().iter().map(is_so).collect();
+        track.confirm(&confirmed);
     }
 }
 
