@@ -37,7 +37,7 @@ const FACTS: [(&str, &[&str]); 14] = [
     ("rank/src/sparse/smallest.rs", &["STREAM"]),
     ("rank/src/sparse/symbolic.rs", &["NUMBER", "ENTRY"]),
     ("rank/src/structure/graph.rs", &["NEW"]),
-    ("solvability/src/generic.rs", &["GOLDEN"]),
+    ("solvability/src/generic/walker.rs", &["GOLDEN"]),
     ("solvability/src/sensitivity/instant.rs", &["GOLDEN_ANGLE"]),
 ];
 

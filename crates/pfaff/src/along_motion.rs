@@ -65,7 +65,8 @@ pub struct VerdictsAlongMotion {
 }
 
 impl VerdictsAlongMotion {
-    /// The verdicts as plain data, with the names of this layout: `along` in the output of `pfaff analyze --along --json`.
+    /// The verdicts as plain data, with the names of this layout: `along` in the output of
+    /// `pfaff analyze --along --json`.
     #[must_use]
     pub fn document(&self, layout: &Layout) -> AlongDocument {
         let extent = (self.samples, self.reach);

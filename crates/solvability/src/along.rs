@@ -130,7 +130,7 @@ fn judged_as_one(
 ) -> Result<Along, AlongError> {
     let mut path = Path::new(mechanism, motion, times, Detail::Verdicts)?;
     let mut verdicts = of_run.unwrap_or_else(|| stretches::of_samples(&path));
-    compare::confirm(&mut verdicts, &path.samples);
+    compare::look_at_samples(&mut verdicts, &path);
     let stretches = stretches::of_other_rank(&path);
     let redundancy = mechanism.layout().rows() - path.rank;
     let mut passages = Vec::new();

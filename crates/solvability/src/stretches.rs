@@ -100,18 +100,18 @@ impl VerdictTrack {
         &self.special
     }
 
-    /// Leaves out special instants that are not confirmed, given in their order.
-    pub(crate) fn confirm(&mut self, confirmed: &[bool]) {
-        let mut confirmed = confirmed.iter();
-        self.special.retain(|_| confirmed.next() == Some(&true));
+    /// Leaves out all special instants.
+    pub(crate) fn forget_special(&mut self) {
+        self.special.clear();
     }
 
-    /// Adds an instant that was looked at besides, if another verdict holds there than on its
+    /// Adds an instant that was looked at besides, if another verdict is decided there than on its
     /// stretch.
     pub(crate) fn look(&mut self, time: f64, verdict: &Verdict) {
         let place = self.special.partition_point(|s| s.time < time);
         let is_known = self.special.get(place).is_some_and(|s| s.time == time);
-        if !is_known && verdict.word() != self.at(time).word() {
+        let differs = verdict.is_decided() && verdict.word() != self.at(time).word();
+        if differs && !is_known {
             let verdict = verdict.clone();
             self.special.insert(place, SpecialInstant { time, verdict });
         }

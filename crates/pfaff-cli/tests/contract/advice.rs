@@ -271,8 +271,8 @@ fn what_is_zero_is_printed_as_zero() {
     );
 }
 
-/// An edge has no force along itself: that this component is unique (zero) is not reported. Where it
-/// becomes zero for an instant is no singular configuration.
+/// An edge has no force along itself: that this component is unique (zero) is not reported. An
+/// instant at which it becomes zero is not a singular configuration.
 #[test]
 fn directions_without_any_force_are_no_findings() {
     let d = analysis("car", &["--along"]);

@@ -3,8 +3,8 @@
 use model::{Layout, Mechanism, System};
 
 use super::data::Difference;
-use super::path::Sample;
-use crate::stretches::{SpecialInstant, Stretches, worst};
+use super::path::{Path, Sample};
+use crate::stretches::{Stretches, worst};
 use crate::verdict::{Judgement, Verdict};
 
 /// Lists the verdicts at an instant that differ from those of its stretches: of each reaction as a
@@ -34,30 +34,35 @@ pub(super) fn differences(
     found
 }
 
-/// Leaves out special instants of a run at which the verdicts of the motion itself are others: the
-/// states of a run are less accurate, and near such an instant they do not differ from it. Of
-/// several samples side by side that do not differ from it by more than rounding, the first of the
-/// motion or else the one with the smallest margin is the instant.
-pub(super) fn confirm(verdicts: &mut Stretches, samples: &[Sample]) {
+/// The special instants that samples show, in place of those of a run: its states are less accurate,
+/// and near such an instant they do not differ from it. Of several samples side by side that do not
+/// differ from it by more than rounding, the first of the motion or else the one with the smallest
+/// margin is the instant.
+pub(super) fn look_at_samples<F>(verdicts: &mut Stretches, path: &Path<'_, F>) {
+    let samples = &path.samples;
     for (k, track) in verdicts.components_mut().enumerate() {
         let is_special = |place: usize| {
-            let here = samples[place].judged[k].verdict.word();
-            here != track.at(samples[place].t).word()
+            let here = &samples[place].judged[k].verdict;
+            here.word() != track.at(samples[place].t).word()
         };
         let margin = |place: usize| samples[place].judged[k].margin;
-        let is_so = |special: &SpecialInstant| {
-            let place = samples.binary_search_by(|s| s.t.total_cmp(&special.time));
-            place.is_ok_and(|place| {
-                let after = (place + 1 < samples.len()).then_some(place + 1);
-                let mut beside = place.checked_sub(1).into_iter().chain(after);
-                let is_nearer = |other: usize| {
-                    is_special(other) && (other == 0 || place > 0 && margin(other) < margin(place))
-                };
-                is_special(place) && !beside.any(is_nearer)
-            })
+        let is_instant = |place: usize| {
+            let after = (place + 1 < samples.len()).then_some(place + 1);
+            let mut beside = place.checked_sub(1).into_iter().chain(after);
+            let is_nearer = |other: usize| {
+                is_special(other) && (other == 0 || place > 0 && margin(other) < margin(place))
+            };
+            let Sample { decision, .. } = &samples[place];
+            let has_rank = decision.is_decided() && decision.rank == path.rank;
+            has_rank && is_special(place) && !beside.any(is_nearer)
         };
-        let confirmed: Vec<bool> = track.special().iter().map(is_so).collect();
-        track.confirm(&confirmed);
+        let instants = (0..samples.len()).filter(|place| is_instant(*place));
+        let instants: Vec<usize> = instants.collect();
+        track.forget_special();
+        for place in instants {
+            let Sample { t, judged, .. } = &samples[place];
+            track.look(*t, &judged[k].verdict);
+        }
     }
 }
 
@@ -65,12 +70,10 @@ fn name_of(layout: &Layout, group: usize) -> String {
     layout.groups[group].name.clone()
 }
 
-/// Adds decided verdicts at an instant to those along the motion: where they differ from their
-/// stretch they are special.
+/// Adds the verdicts at an instant to those along the motion: where they are decided and differ from
+/// their stretch they are special.
 pub(super) fn look(verdicts: &mut Stretches, (time, judged): (f64, &[Judgement])) {
     for (track, here) in verdicts.components_mut().zip(judged) {
-        if here.verdict.is_decided() {
-            track.look(time, &here.verdict);
-        }
+        track.look(time, &here.verdict);
     }
 }

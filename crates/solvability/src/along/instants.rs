@@ -75,31 +75,47 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
         for bracket in brackets {
             let inside = |t: f64| bracket[0] <= t && t <= bracket[1];
             let is_unique = |judged: &[Judgement]| judged[component].verdict.is_unique();
-            let is_listed = track.special().iter().any(|s| inside(s.time));
-            if is_listed || found.iter().any(|(t, j)| inside(*t) && is_unique(j)) {
-                continue;
-            }
-            // Near a flat minimum the margin is only rounding, so a sample time given by the caller
-            // is preferred to any other time in that range.
+            // What samples show is known already.
             let samples = path.samples.iter().zip(&known);
             let mut given = samples.filter(|(s, known)| inside(s.t) && **known);
-            let (t, judged) = match given.find(|(s, _)| is_unique(&s.judged)) {
-                Some((sample, _)) => (sample.t, sample.judged.clone()),
-                None => {
-                    let least =
-                        search::minimum(bracket, 0.0, 0.0, |t| margins_at.of(path, t, component))?;
-                    let Some((t, _)) = least else {
-                        continue;
-                    };
-                    (t, path.judged_at(t)?)
-                }
+            let is_listed = track.special().iter().any(|s| inside(s.time));
+            let is_found = found.iter().any(|(t, j)| inside(*t) && is_unique(j));
+            if is_listed || is_found || given.any(|(s, _)| is_unique(&s.judged)) {
+                continue;
+            }
+            let least = search::minimum(bracket, 0.0, 0.0, |t| margins_at.of(path, t, component))?;
+            let Some((t, _)) = least else {
+                continue;
             };
-            if is_unique(&judged) && !is_singular(t) && is_open(track, t) {
+            let judged = path.judged_at(t)?;
+            let is_instant = is_unique(&judged) && !is_singular(t) && is_open(track, t);
+            if is_instant && !is_of_sample(path, &known, (t, component))? {
                 found.push((t, judged));
             }
         }
     }
     Ok(found)
+}
+
+/// Whether a component is also unique at a sample beside an instant, and between both: then the
+/// instant is that of the sample, blurred by rounding.
+fn is_of_sample<F: FnMut(f64) -> State>(
+    path: &mut Path<'_, F>,
+    known: &[bool],
+    (t, component): (f64, usize),
+) -> Result<bool, AlongError> {
+    let next = path.samples.partition_point(|s| s.t <= t);
+    for place in next.saturating_sub(1)..path.samples.len().min(next + 1) {
+        let sample = &path.samples[place];
+        if known[place] && sample.judged[component].verdict.is_unique() {
+            let between = 0.5 * (t + sample.t);
+            let judged = path.judged_at(between)?;
+            if judged[component].verdict != Verdict::NotUnique {
+                return Ok(true);
+            }
+        }
+    }
+    Ok(false)
 }
 
 fn is_open(track: &VerdictTrack, t: f64) -> bool {

@@ -1,5 +1,5 @@
-//! The verdicts of a motion by those at its sample times, and stretches between break times on which
-//! another rank holds.
+//! The verdicts of a motion by those at its sample times, and stretches between break times on
+//! which another rank holds.
 
 use model::{Mechanism, System};
 
