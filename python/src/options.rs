@@ -3,12 +3,12 @@
 use std::num::NonZeroUsize;
 
 use pfaff::ConfigurationAnalysis;
-use pfaff::{Overrides, StudyError};
 use pfaff::dynamics::plan::{Reactions, Rows};
 use pfaff::dynamics::{Method, Wanted};
 use pfaff::model::{ConstraintId, Mechanism, System, Tolerance};
 use pfaff::scene::nearest;
 use pfaff::solvability::{Allowed, Choice, Compliance, NormWeights};
+use pfaff::{Overrides, StudyError};
 use pyo3::prelude::*;
 
 use crate::fault::{Fault, wrong};

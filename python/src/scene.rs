@@ -216,7 +216,8 @@ impl Scene {
             }
             for event in sample.events {
                 if let Some(on_event) = on_event {
-                    let document = plain(&EventDocument::new(event, mechanism.layout())).unwrap_or_default();
+                    let document =
+                        plain(&EventDocument::new(event, mechanism.layout())).unwrap_or_default();
                     hearing.call(|py| on_event.call1(py, (document,)));
                 }
             }

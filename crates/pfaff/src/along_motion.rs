@@ -110,8 +110,8 @@ impl Study {
     /// body = [{ name = "bob", mass = 1.0, inertia = 0.1, position = [1.0, 0.0] }]
     /// joint = [{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [0.0, 0.0] }]
     /// "#;
-    /// let study = Study::read("pendulum.toml", scene, &Registry::standard(), &Overrides::default())?;
-    /// let along_motion = study.verdicts_along_motion(Some(1.0), |_| {})?;
+    /// let study = Study::read("pendulum.toml", scene, &Registry::standard(),
+    /// &Overrides::default())?; let along_motion = study.verdicts_along_motion(Some(1.0), |_| {})?;
     /// assert_eq!((along_motion.to, along_motion.stopped.is_none()), (1.0, true));
     /// assert_eq!(along_motion.along.generic.redundancy, 0);
     /// assert!(along_motion.along.verdicts.reactions[0].whole.of_run().is_unique());
