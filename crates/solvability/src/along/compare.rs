@@ -34,10 +34,10 @@ pub(super) fn differences(
     found
 }
 
-/// The special instants that samples show, in place of those of a run: its states are less accurate,
-/// and near such an instant they do not differ from it. Of several samples side by side that do not
-/// differ from it by more than rounding, the first of the motion or else the one with the smallest
-/// margin is the instant.
+/// The special instants that samples show, in place of those of a run: its states are less
+/// accurate, and near such an instant they do not differ from it. Of several samples side by side
+/// that do not differ from it by more than rounding, the first of the motion or else the one with
+/// the smallest margin is the instant.
 pub(super) fn look_at_samples<F>(verdicts: &mut Stretches, path: &Path<'_, F>) {
     let samples = &path.samples;
     for (k, track) in verdicts.components_mut().enumerate() {
@@ -70,8 +70,8 @@ fn name_of(layout: &Layout, group: usize) -> String {
     layout.groups[group].name.clone()
 }
 
-/// Adds the verdicts at an instant to those along the motion: where they are decided and differ from
-/// their stretch they are special.
+/// Adds the verdicts at an instant to those along the motion: where they are decided and differ
+/// from their stretch they are special.
 pub(super) fn look(verdicts: &mut Stretches, (time, judged): (f64, &[Judgement])) {
     for (track, here) in verdicts.components_mut().zip(judged) {
         track.look(time, &here.verdict);
