@@ -468,7 +468,6 @@ fn along_the_motion_of_an_example_the_verdicts_are_those_of_its_run() {
         let mechanism = &study.prepared.mechanism;
         let along = along_motion(mechanism, motion, &times(0.0, t_end, 100));
         let along = along.unwrap_or_else(|e| panic!("{name}: {e}"));
-        println!("{name}");
         assert_agree(&along, &verdicts, mechanism.layout());
         // The same from the motion that the library runs itself.
         let own = study.verdicts_along_motion(Some(t_end), |_| {});

@@ -223,7 +223,7 @@ impl Walker<'_> {
         };
         decision
             .is_decided()
-            .then(|| (point, DecidedRows { decision, c }))
+            .then_some((point, DecidedRows { decision, c }))
     }
 
     /// The largest component of a displacement, as a fraction of the size of the mechanism or in

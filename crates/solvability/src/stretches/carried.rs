@@ -38,6 +38,9 @@ pub struct CarriedVerdicts<'m> {
     ends: Option<Vec<f64>>,
 }
 
+/// A basis of the left null space for rows of a part.
+type BasisOf<'f, 'b> = dyn Fn(&[usize]) -> Cow<'b, Basis> + 'f;
+
 /// Joints on common cycles whose rows depend on each other.
 struct OpenPart<'m> {
     extent: Extent,
@@ -480,7 +483,7 @@ impl OpenPart<'_> {
         whole: &Mechanism,
         at: &CarriedState<'_>,
         forms: &[LinearForm],
-        (basis, is_free): (&dyn Fn(&[usize]) -> Cow<'b, Basis>, &dyn Fn(usize) -> bool),
+        (basis, is_free): (&BasisOf<'_, 'b>, &dyn Fn(usize) -> bool),
     ) -> Result<Vec<Verdict>, QueryError> {
         let mut verdicts = Vec::new();
         for (own, group) in self.mechanism.layout().groups.iter().enumerate() {
