@@ -105,8 +105,8 @@ impl VerdictTrack {
         self.special.clear();
     }
 
-    /// Adds an instant that was looked at besides, if another verdict is decided there than on its
-    /// stretch.
+    /// Adds another instant that was looked at, if a verdict is decided there and differs from that
+    /// of its stretch.
     pub(crate) fn look(&mut self, time: f64, verdict: &Verdict) {
         let place = self.special.partition_point(|s| s.time < time);
         let is_known = self.special.get(place).is_some_and(|s| s.time == time);
