@@ -436,7 +436,7 @@ fn summary_has_the_keys_of_the_contract() {
                     "Fx": { "verdict": "unique", "sensitivity": 0.25, "fragile": true,
                         "hangs_on": "`upper.Fx` is unique but changes by about 25 % if point `s_i` of `lower` moves by 0.20 mm" },
                     "Fy": { "verdict": "unique", "sensitivity": null, "fragile": false,
-                        "peak": { "value": -3.5, "time": 0.25, "over": [[0.0, 2.0]] } } } },
+                        "peak": { "value": -3.5, "verdict": "unique", "fragile": false, "sensitivity": null, "time": 0.25, "over": [[0.0, 2.0]] } } } },
             "lower \"2\"": { "verdict": "not_unique", "sensitivity": null, "fragile": false,
                 "at_start": { "verdict": "not_unique", "margin": 0.5, "within_tolerance": false },
                 "components": {
