@@ -21,15 +21,13 @@ use joints::{Plane, Space3};
 
 use crate::body::BodyRef;
 use crate::element::{BodySpace, ConstraintKernels, Kinematics};
+pub(crate) use facts::TYPE;
 use facts::facts;
 use polynomial::Polynomial;
 use side::Side;
 
 pub use crate::element::{Measured, Placed};
 pub use error::CouplingError;
-
-/// Type of couplings in scene files.
-pub(crate) const TYPE: &str = "coupling";
 
 /// Name of the datum with the initial value of a measure that has a row of its own.
 const OF_ROW: &str = "measure_0";

@@ -148,6 +148,15 @@ pub(crate) fn tolerance(m: usize, n: usize, uncertainty: f64) -> f64 {
     NOISE_FACTOR * rounding.max(uncertainty)
 }
 
+impl RankDecision {
+    /// The smallest singular value that kept rows need, equilibrated as here, to count as
+    /// independent.
+    #[must_use]
+    pub fn required_of_kept(&self) -> f64 {
+        required(self.evidence.tolerance)
+    }
+}
+
 /// Lower limit for the smallest singular value that counts as non-zero: max(10³·τ, 10⁻⁷).
 pub(crate) fn required(tolerance: f64) -> f64 {
     (CLEARANCE * tolerance).max(NEARLY_SINGULAR)

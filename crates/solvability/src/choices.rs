@@ -9,6 +9,7 @@ mod error;
 mod free;
 mod label;
 mod minimise;
+mod multipliers;
 
 use std::sync::Arc;
 
@@ -29,8 +30,8 @@ use crate::parts::{Extent, ListedRows};
 use crate::value::{Label, NoFiniteReaction, Value};
 use crate::verdict::Verdict;
 use free::Choosing;
-pub(crate) use free::FreeMultipliers;
 pub(crate) use label::label;
+pub(crate) use multipliers::FreeMultipliers;
 
 /// A rule that chooses one of the solutions.
 #[derive(Clone, Debug, PartialEq)]

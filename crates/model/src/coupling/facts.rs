@@ -4,10 +4,12 @@
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
-use super::TYPE;
 use joints::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Parameter, Role, Row, Shape, Spec, Unit,
 };
+
+/// Type of couplings in scene files.
+pub(crate) const TYPE: &str = "coupling";
 
 /// The facts of a coupling with the patterns of its kernels.
 pub(super) struct Facts {

@@ -1,8 +1,8 @@
 //! Whether a coefficient of the dependencies is zero: the tolerance for T, Z and numbers computed
 //! from them, derived from the evidence of the rank.
 
+use super::Grounds;
 use super::outcome::RankDecision;
-use super::{Grounds, required};
 use crate::limits::{
     AS_READ, BEYOND_DOUBT, CERTAIN, COEFFICIENT_CLEARANCE, COMBINATION_SPREAD, NOISE_FACTOR,
     POSE_FACTOR, SOLVE_FACTOR, STATED_MAX, STATED_ZERO, TOLERANCE_MAX, VANISHED,
@@ -68,13 +68,6 @@ impl RankDecision {
     pub fn is_exact(&self) -> bool {
         let certificate = self.evidence.certificate.as_ref();
         certificate.is_some_and(|c| c.uncertainty == 0.0 && c.grounds != Grounds::WithinData)
-    }
-
-    /// The smallest singular value that kept rows need, equilibrated as here, to count as
-    /// independent.
-    #[must_use]
-    pub fn required_of_kept(&self) -> f64 {
-        required(self.evidence.tolerance)
     }
 
     /// Bound on the absolute error of a coefficient of T̃ or Z: `10·τ/σ_r`, or `s/σ_r` for a

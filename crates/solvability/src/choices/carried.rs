@@ -9,7 +9,8 @@ use linalg::{Matrix, singular_values};
 use model::{Known, Mechanism, RowRanges, Scratch, System};
 use rank::KeptRowsError;
 
-use super::free::{Choosing, FreeMultipliers};
+use super::free::Choosing;
+use super::multipliers::FreeMultipliers;
 use super::{Choice, ChoiceError, Label, rows_refused};
 use crate::certificate::Rows;
 use crate::error::AnalysisError;

@@ -1,60 +1,12 @@
 //! All solutions `λ₀ + Z·y` at one pose, and those of them that a rule selects.
 
-use std::borrow::Cow;
-
-use linalg::{Matrix, PivotedQr};
+use linalg::Matrix;
 use model::{ConstraintId, RowRanges, System};
 
 use super::minimise::{independent_columns, minimise_in};
+use super::multipliers::FreeMultipliers;
 use super::{ChoiceError, Compliance, NormWeights};
 use crate::groups::{LinearForm, ReactionForms, RequestError};
-use crate::limits::CHOICE_SOLVES;
-use crate::matrices::Solvability;
-
-/// The directions in which multipliers are free.
-pub(crate) struct FreeMultipliers<'a> {
-    /// Orthonormal basis of the left null space of the equilibrated rows, m × p.
-    pub(crate) z: Cow<'a, Matrix>,
-    /// Row factors of the equilibration, D_r.
-    pub(crate) row_factor: Cow<'a, [f64]>,
-    /// Largest coefficient that counts as zero.
-    pub(crate) tolerance: f64,
-}
-
-impl<'a> FreeMultipliers<'a> {
-    /// Those of a matrix.
-    pub(crate) fn of(solvability: &'a Solvability) -> Self {
-        Self {
-            z: Cow::Borrowed(solvability.null_space()),
-            row_factor: Cow::Borrowed(solvability.row_factors()),
-            tolerance: rank::support_tolerance(solvability.decision()),
-        }
-    }
-
-    /// `λ − Z·(Z_D)⁻¹·λ_D`: the solution that is zero, exactly, in the rows D, which determine y.
-    pub(crate) fn eliminated(&self, lambda: &[f64], rows: &[usize]) -> Vec<f64> {
-        let qr = PivotedQr::of_columns(&self.z.select_rows(rows));
-        let mut lambda = lambda.to_vec();
-        for _ in 0..CHOICE_SOLVES {
-            let own = rows.iter().map(|&i| lambda[i] / self.row_factor[i]);
-            let mut y: Vec<f64> = own.collect();
-            qr.q_transpose_mul(&mut y);
-            qr.solve_r(&mut y);
-            self.leave(&mut lambda, qr.permutation(), &y);
-        }
-        rows.iter().for_each(|&i| lambda[i] = 0.0);
-        lambda
-    }
-
-    /// `λ − Z·y` for these columns of Z.
-    pub(super) fn leave(&self, lambda: &mut [f64], columns: &[usize], y: &[f64]) {
-        for (i, l) in lambda.iter_mut().enumerate() {
-            let terms = columns.iter().zip(y);
-            let change: f64 = terms.map(|(&k, y)| self.z[(i, k)] * y).sum();
-            *l -= self.row_factor[i] * change;
-        }
-    }
-}
 
 /// `C_Xᵀ·Z_X` of equilibrated rows X.
 type Cancelling<'a> = Box<dyn Fn(&RowRanges) -> Result<Matrix, RequestError> + 'a>;

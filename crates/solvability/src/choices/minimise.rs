@@ -5,7 +5,7 @@ use crate::limits::CHOICE_SOLVES;
 use linalg::{Matrix, PivotedQr};
 
 use super::ChoiceError;
-use super::free::FreeMultipliers;
+use super::multipliers::FreeMultipliers;
 use crate::groups::{LinearForm, check, check_finite};
 use crate::matrices::Solvability;
 
