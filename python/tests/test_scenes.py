@@ -49,7 +49,6 @@ def test_a_door_on_two_hinges() -> None:
     assert np.isfinite(analysis.reactions({"upper": 1e-6, "lower": 2e-6})["lower"]["Fy"])
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_couplings_have_their_own_force() -> None:
     """An arm at rest below its pivot, and a seat of 3 kg that does not turn, 0.25 m off its hinge."""
     level = {"measures": ["pivot.angle", "hinge.angle"], "ratio": -1.0}
@@ -82,6 +81,7 @@ def test_couplings_have_their_own_force() -> None:
     np.testing.assert_array_equal(run.reaction("level").force, 0.0)
 
 
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_directions_are_rows(path: Path) -> None:
     """As many columns as the joint has components, in space six; also if there is no row."""
     analysis = pfaff.Scene.from_file(path).analyze()
