@@ -13,6 +13,7 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -223,7 +224,7 @@ def test_what_is_unique_at_the_start_only_has_no_number() -> None:
 
 def test_an_impulse_has_verdicts() -> None:
     """A wheel of 2 kg and 0.3 kg·m², 0.5 m off its pin, at 2 rad/s and from 1 s on at -1 rad/s."""
-    both = {"bodies": ["ground", "wheel"], "at": [0.0, 0.0]}
+    both: dict[str, Any] = {"bodies": ["ground", "wheel"], "at": [0.0, 0.0]}
     motion = {"type": "linear-table", "times": [0.0, 1.0, 3.0], "values": [0.0, 2.0, 0.0]}
     wheel = (
         pfaff.Scene("wheel", space="plane")

@@ -50,9 +50,16 @@ class ComponentVerdict:
 
 
 def _components(of: Iterable[Mapping[str, Any]]) -> dict[str, ComponentVerdict]:
-    keys = ("name", "verdict", "margin", "within_tolerance", "sensitivity", "fragile")
     return {
-        c["name"]: ComponentVerdict(*(c[key] for key in keys), c.get("generic_verdict"))
+        c["name"]: ComponentVerdict(
+            c["name"],
+            c["verdict"],
+            c["margin"],
+            c["within_tolerance"],
+            c["sensitivity"],
+            c["fragile"],
+            c.get("generic_verdict"),
+        )
         for c in of
     }
 
