@@ -9,9 +9,10 @@ use crate::matrices::{Basis, QueryError};
 use crate::mechanism::component_map;
 use crate::verdict::{Judgement, Verdict};
 
-/// The names of the components of a joint or drive that are not identically zero, and of the named
-/// component of its definition.
-pub(crate) fn component_names(group: &ConstraintGroup) -> impl Iterator<Item = &'static str> {
+/// The names of the numbers of a joint or drive that a run has verdicts on: its components that are
+/// not identically zero, and the named one of its definition, as `N` or `drive`, which
+/// [`ConstraintGroup::component_names`] has only for couplings.
+pub(crate) fn number_names(group: &ConstraintGroup) -> impl Iterator<Item = &'static str> {
     let names = group.space.components();
     let own = group.components().into_iter().map(|c| names[c]);
     own.chain(group.spec.component)
@@ -22,7 +23,7 @@ pub(crate) fn all_components(
     layout: &Layout,
 ) -> impl Iterator<Item = (ConstraintId, &'static str)> {
     let ids = layout.constraint_ids();
-    ids.flat_map(|id| component_names(&layout.groups[id.0]).map(move |name| (id, name)))
+    ids.flat_map(|id| number_names(&layout.groups[id.0]).map(move |name| (id, name)))
 }
 
 /// The verdicts on the components of a joint or drive at the pose of the scratch, in the order of
@@ -37,7 +38,7 @@ pub(crate) fn judge_components(
     let group = &mechanism.layout().groups[id.0];
     if basis.is_free_of(places) {
         let unique = Judgement::new(Verdict::Unique, 0.0);
-        return Ok(vec![unique; component_names(group).count()]);
+        return Ok(vec![unique; number_names(group).count()]);
     }
     let (components, map) = component_map(mechanism, id, s);
     let forces = group.space.forces();

@@ -152,14 +152,14 @@ fn special(along: &AlongDocument) -> Vec<String> {
             Some(component) => format!("{}.{component}", special.name),
             None => special.name.clone(),
         };
-        let told = (special.verdict, name);
+        let found = (special.verdict, name);
         match instants.last_mut() {
             Some((known, all)) if *known == time => {
-                if !all.contains(&told) {
-                    all.push(told);
+                if !all.contains(&found) {
+                    all.push(found);
                 }
             }
-            _ => instants.push((time, vec![told])),
+            _ => instants.push((time, vec![found])),
         }
     }
     let text = |(time, all): &(String, Vec<(&str, String)>)| {
@@ -169,8 +169,8 @@ fn special(along: &AlongDocument) -> Vec<String> {
             (!names.is_empty()).then(|| format!("{}: {}", spoken(word), names.join(", ")))
         };
         let words = ["unique", "not_unique", "undecided"].into_iter();
-        let told: Vec<String> = words.filter_map(of).collect();
-        format!("at t = {time} s, for an instant, {}", told.join("; "))
+        let words: Vec<String> = words.filter_map(of).collect();
+        format!("at t = {time} s, for an instant, {}", words.join("; "))
     };
     instants.iter().map(text).collect()
 }

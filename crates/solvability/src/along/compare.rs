@@ -48,13 +48,13 @@ pub(super) fn look_at_samples<F>(verdicts: &mut Stretches, path: &Path<'_, F>) {
         let margin = |place: usize| samples[place].judged[k].margin;
         let is_instant = |place: usize| {
             let after = (place + 1 < samples.len()).then_some(place + 1);
-            let mut beside = place.checked_sub(1).into_iter().chain(after);
+            let mut neighbours = place.checked_sub(1).into_iter().chain(after);
             let is_nearer = |other: usize| {
                 is_special(other) && (other == 0 || place > 0 && margin(other) < margin(place))
             };
             let Sample { decision, .. } = &samples[place];
             let has_rank = decision.is_decided() && decision.rank == path.rank;
-            has_rank && is_special(place) && !beside.any(is_nearer)
+            has_rank && is_special(place) && !neighbours.any(is_nearer)
         };
         let instants = (0..samples.len()).filter(|place| is_instant(*place));
         let instants: Vec<usize> = instants.collect();

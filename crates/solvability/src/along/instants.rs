@@ -97,7 +97,7 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
     Ok(found)
 }
 
-/// Whether a component is also unique at a sample beside an instant, and between both: then the
+/// Whether a component is also unique at a sample next to an instant, and between both: then the
 /// instant is that of the sample, blurred by rounding.
 fn is_of_sample<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,

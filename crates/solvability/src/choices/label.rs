@@ -44,15 +44,15 @@ pub(crate) fn label(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) ->
             let known = rows.iter().filter_map(|&i| layout.labels.get(i));
             let labels: Vec<RowLabel> = known.cloned().collect();
             // The label is repeated at every number, so it lists only the first rows.
-            let (told, more) = if labels.len() > NAMED_ROWS {
+            let (first, more) = if labels.len() > NAMED_ROWS {
                 labels.split_at(FIRST_NAMED)
             } else {
                 (&labels[..], &[][..])
             };
             let word = row_word(&labels);
             match more.len() {
-                0 => format!("no reaction in {word} {}", list(told)),
-                more => format!("no reaction in {word} {} and {more} more", list(told)),
+                0 => format!("no reaction in {word} {}", list(first)),
+                more => format!("no reaction in {word} {} and {more} more", list(first)),
             }
         }
     };

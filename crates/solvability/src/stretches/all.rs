@@ -3,7 +3,7 @@
 use model::{ConstraintId, Mechanism, System};
 
 use super::{GroupStretches, ReactionStretches, Stretches, VerdictTrack};
-use crate::components::component_names;
+use crate::components::number_names;
 use crate::generic::GenericVerdict;
 use crate::groups::Group;
 use crate::parts::Extent;
@@ -18,7 +18,7 @@ impl Stretches {
         let reaction = |id: ConstraintId| ReactionStretches {
             id,
             whole: track(),
-            components: component_names(&layout.groups[id.0])
+            components: number_names(&layout.groups[id.0])
                 .map(|name| (name, track()))
                 .collect(),
         };

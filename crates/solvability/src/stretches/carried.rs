@@ -15,7 +15,7 @@ use rank::RankStatus;
 use super::recorder::Verdicts;
 use super::{Looked, Stretches, VerdictRecorder, VerdictTrack};
 use crate::certificate::Rows;
-use crate::components::{all_components, component_names, judge_components};
+use crate::components::{all_components, judge_components, number_names};
 use crate::error::AnalysisError;
 use crate::groups::{Group, LinearForm, ReactionForms, RequestError};
 use crate::limits::ROWS_MAX;
@@ -240,7 +240,7 @@ impl<'m> CarriedVerdicts<'m> {
         for part in &self.parts {
             for own in 0..part.mechanism.layout().groups.len() {
                 let id = ConstraintId(part.extent.group(own));
-                let names = component_names(&layout.groups[id.0]);
+                let names = number_names(&layout.groups[id.0]);
                 numbers.extend(names.map(|name| Number::Component(id, name)));
             }
             for (k, group) in self.groups.iter().enumerate() {
@@ -466,7 +466,7 @@ impl OpenPart<'_> {
         let mut verdicts = verdicts.iter();
         let groups = self.mechanism.layout().groups.iter();
         for (group, free) in groups.zip(&mut self.free) {
-            let count = component_names(group).count();
+            let count = number_names(group).count();
             let own = verdicts.by_ref().take(count);
             let is_free = |v: &&Option<Verdict>| matches!(v, Some(Verdict::NotUnique));
             if own.filter(is_free).count() == count && count > 0 {
@@ -489,7 +489,7 @@ impl OpenPart<'_> {
         for (own, group) in self.mechanism.layout().groups.iter().enumerate() {
             let id = ConstraintId(self.extent.group(own));
             if is_free(own) {
-                let count = component_names(group).count();
+                let count = number_names(group).count();
                 verdicts.resize(verdicts.len() + count, Verdict::NotUnique);
                 continue;
             }
