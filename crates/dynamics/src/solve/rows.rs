@@ -297,7 +297,7 @@ impl KeptRows {
     pub(crate) fn largest_coefficient(&mut self, at: &Evaluation<'_>) -> f64 {
         note(Counted::Coefficients);
         // Large mechanisms have thousands of dropped rows, each implied by a few rows: instead of
-        // all of them, two sums with random signs are used.
+        // all of them, two sums with random weights are used.
         let are_summed = self.kept.len() >= SUMMED_FROM;
         let samples = if are_summed { 2 } else { self.dropped.len() };
         let mut largest = 0.0_f64;
@@ -364,7 +364,7 @@ impl KeptRows {
     }
 
     /// Like [`Self::all_dependencies`], but if there are many, of sums of all dropped rows with
-    /// random signs.
+    /// random weights.
     pub(crate) fn dependencies(
         &mut self,
         at: &Evaluation<'_>,
@@ -377,7 +377,7 @@ impl KeptRows {
         for (seed, z) in (1..).zip(z.iter_mut()) {
             self.imply_sum(at, seed).map_err(|e| self.fault(at, e))?;
             for (k, &i) in self.dropped.iter().enumerate() {
-                z[i] = sign_of(k, seed);
+                z[i] = weight_of(k, seed);
             }
             for (&i, coefficient) in self.kept.iter().zip(&self.lambda) {
                 z[i] = -coefficient;
@@ -419,15 +419,15 @@ impl KeptRows {
         self.solve_for_multipliers()
     }
 
-    /// Like [`Self::imply`], for the sum of all dropped rows with random signs.
+    /// Like [`Self::imply`], for the sum of all dropped rows with random weights.
     fn imply_sum(&mut self, at: &Evaluation<'_>, seed: u64) -> Result<(), SaddleError> {
         let scaled = &mut self.scaled;
         scaled.motion.fill(0.0);
         scaled.force.fill(0.0);
         for (k, &i) in self.dropped.iter().enumerate() {
-            let sign = sign_of(k, seed);
+            let weight = weight_of(k, seed);
             for (j, c) in at.mechanism.layout().row(&at.s, i) {
-                scaled.force[j] += sign * c * scaled.units[j];
+                scaled.force[j] += weight * c * scaled.units[j];
             }
         }
         self.solve_for_multipliers()
@@ -525,13 +525,33 @@ impl KeptRows {
     }
 }
 
-/// A pseudo-random sign.
-fn sign_of(k: usize, seed: u64) -> f64 {
-    let mixed = (k as u64)
-        .wrapping_add(seed << 40)
-        .wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    match mixed.rotate_left(31).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 63 {
-        0 => 1.0,
-        _ => -1.0,
+/// A pseudo-random weight of a row in a sum, between 1 and 2 in size. Signs alone would not do: two
+/// rows that take part in a number alike would cancel in one sum of two.
+fn weight_of(k: usize, seed: u64) -> f64 {
+    let mut mixed = (k as u64).wrapping_add(seed << 40);
+    for odd in [0x9e37_79b9_7f4a_7c15, 0xbf58_476d_1ce4_e5b9] {
+        mixed = mixed.wrapping_mul(odd).rotate_left(31);
+    }
+    // 52 bits as the fraction of a number, and a sign.
+    let size = f64::from_bits(1.0_f64.to_bits() | mixed >> 12);
+    size.copysign(if mixed & 1 == 0 { 1.0 } else { -1.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::weight_of;
+
+    /// In a sum no two rows cancel, nor does one of them fail to count.
+    #[test]
+    fn weights_of_rows_differ_in_size() {
+        for seed in 1..=8 {
+            let mut sizes: Vec<f64> = (0..300).map(|k| weight_of(k, seed).abs()).collect();
+            sizes.sort_by(f64::total_cmp);
+            assert!(sizes[0] >= 1.0 && sizes[299] < 2.0, "{sizes:?}");
+            let apart = sizes.windows(2).map(|pair| pair[1] - pair[0]);
+            assert!(apart.fold(1.0, f64::min) > 1e-8, "seed {seed}: {sizes:?}");
+            let negative = (0..300).filter(|&k| weight_of(k, seed) < 0.0).count();
+            assert!((100..200).contains(&negative), "seed {seed}: {negative}");
+        }
     }
 }
