@@ -322,7 +322,7 @@ def test_a_mechanism_that_cannot_move() -> None:
     )
     analysis = bar.analyze()
     assert (analysis.rank, analysis.redundancy) == (3, 1)
-    assert "cannot be moved" in analysis.document["warnings"][0]
+    assert "cannot be simulated" in analysis.document["warnings"][0]
     for call in (lambda: bar.simulate(1.0), lambda: bar.analyze(0.5), lambda: analysis.along(1.0)):
         with pytest.raises(pfaff.Error) as raised:
             call()

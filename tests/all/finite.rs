@@ -107,6 +107,34 @@ fn loads_that_cancel_do_not_push() {
     assert_eq!(why.loads, ["gravity", "`prop`"]);
 }
 
+/// Three rods in the plane that meet at the centre of mass hold it, and nothing turns the body
+/// about it: the load in this direction is rounding, whichever way gravity points, and no reason to
+/// refuse.
+#[test]
+fn rods_that_meet_at_the_centre_of_mass_carry_it() {
+    for gravity in [
+        [0.0, 5.0],
+        [1.8800935912111771, 5.761681116396184],
+        [5.0, 1.0],
+    ] {
+        let scene = format!(
+            r#"
+scene = {{ name = "rods", space = "plane", gravity = {gravity:?} }}
+body = [{{ name = "plate", mass = 1.0, inertia = 1.0, position = [1.0, -0.3333333333333333], angle = 3.141592653589793 }}]
+joint = [
+    {{ name = "left", type = "distance", bodies = ["ground", "plate"], at = [[-1.1428571428571428, -0.7619047619047619], [-1.8571428571428572, -0.9047619047619048]] }},
+    {{ name = "below", type = "distance", bodies = ["ground", "plate"], at = [[1.0, -1.1904761904761905], [1.0, -0.047619047619047616]] }},
+    {{ name = "right", type = "distance", bodies = ["ground", "plate"], points = {{ ground = [5.571428571428571, -4.904761904761905], plate = [-1.1428571428571428, 1.1428571428571428] }} }},
+]
+"#
+        );
+        let study = read(&scene);
+        let start = study.analyse(0.0, None).expect("a start");
+        let none = start.no_finite_reactions().expect("it is examined");
+        assert!(none.is_empty(), "{gravity:?}: {none:?}");
+    }
+}
+
 /// The run is refused before its first row.
 #[test]
 fn a_run_of_an_impossible_motion_is_refused() {

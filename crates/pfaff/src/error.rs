@@ -189,7 +189,7 @@ impl StudyError {
     pub fn only_motion(&self) -> Option<String> {
         match self {
             Self::Motion(e @ (MotionError::RankUndecided(_) | MotionError::Inseparable { .. })) => {
-                Some(format!("this mechanism cannot be moved: {e}"))
+                Some(format!("this start cannot be simulated: {e}"))
             }
             Self::SingularStart { contradiction, .. } => Some(format!(
                 "no motion begins with these velocities: {contradiction}"

@@ -446,7 +446,7 @@ impl Study {
             begun.map_err(|failure| failure.error)
         });
         let error = begun.err()?;
-        Some(format!("this mechanism cannot be moved: {error}"))
+        Some(format!("this start cannot be simulated: {error}"))
     }
 
     /// Adds to the document of the start what speaks against a motion: drives that contradict each

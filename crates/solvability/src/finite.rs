@@ -17,7 +17,7 @@ use rank::RankDecision;
 
 use crate::choices::{Solution, solution};
 use crate::freedoms::motions_among;
-use crate::limits::{AT_REST_SPEED, PUSHES};
+use crate::limits::{AT_REST_SPEED, PUSHES, ROUNDING_PUSH};
 use crate::pose::{evaluated, velocity_units};
 use crate::row_decision::RowDecision;
 use crate::second_order::{Accelerated, Restricted, SecondOrder, restrictions};
@@ -148,7 +148,21 @@ impl<'a> Instant<'a> {
     fn pushes(&self, w: &[f64]) -> bool {
         let mass = self.mechanism.mass();
         let own: f64 = (0..w.len()).map(|j| mass[j] * w[j] * w[j]).sum();
-        own > PUSHES * (self.load_terms(w) + self.inertia_terms(w))
+        own > PUSHES * (self.load_terms(w) + self.inertia_terms(w)) + self.rounding(w)
+    }
+
+    /// The power along w that is rounding of loads of this size. If w is rounding itself, so are
+    /// the terms of its power.
+    fn rounding(&self, w: &[f64]) -> f64 {
+        let mass = self.mechanism.mass();
+        let of_column = |j: usize| {
+            let loads = self.loads.iter().map(|(_, force)| force[j].abs());
+            let all: f64 = loads.sum::<f64>() + (mass[j] * self.acceleration[j]).abs();
+            all * self.units[j]
+        };
+        let load = (0..w.len()).map(of_column).fold(0.0, f64::max);
+        let size = self.scaled(w).iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        ROUNDING_PUSH * size * load
     }
 
     fn load_terms(&self, w: &[f64]) -> f64 {
@@ -167,7 +181,7 @@ impl<'a> Instant<'a> {
         let pushes = |force: &Vec<f64>| {
             velocities.iter().any(|w| {
                 let all = self.load_terms(w) + self.inertia_terms(w);
-                dot(force, w).abs() > PUSHES * all
+                dot(force, w).abs() > PUSHES * all + self.rounding(w)
             })
         };
         let loads = self.loads.iter().filter(|(_, force)| pushes(force));

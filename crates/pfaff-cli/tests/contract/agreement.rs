@@ -183,7 +183,7 @@ fn rows_that_agree_to_rounding_are_moved_by_all_commands() {
     ] {
         let (codes, said) = codes(name, &scene);
         assert_eq!(codes, [Some(0); 3], "{name}: {said}");
-        assert!(!said.contains("cannot be moved"), "{name}: {said}");
+        assert!(!said.contains("cannot be simulated"), "{name}: {said}");
         assert!(!said.contains("NEARLY REDUNDANT"), "{name}: {said}");
     }
 }

@@ -95,9 +95,16 @@ impl RowTerms {
         largest * self.extents[i] + self.gamma[i]
     }
 
-    /// The largest of these accelerations, in their units.
-    fn largest(&self, a: &[f64]) -> f64 {
-        let shares = a.iter().zip(&self.units).map(|(a, unit)| (a / unit).abs());
+    /// The largest of these accelerations, and of those that the forces would cause alone, in their
+    /// units: accelerations of bodies that the rows hold are the rounding of these.
+    fn largest(&self, a: &[f64], (mass, force): (&[f64], &[f64])) -> f64 {
+        let alone = force.iter().zip(mass).map(
+            |(force, mass)| {
+                if *mass > 0.0 { force / mass } else { 0.0 }
+            },
+        );
+        let all = a.iter().copied().zip(alone).zip(&self.units);
+        let shares = all.map(|((a, alone), unit)| a.abs().max(alone.abs()) / unit);
         shares.fold(0.0, f64::max)
     }
 }
@@ -230,9 +237,9 @@ impl Equations {
         let (solution, mut saddle) = self.solved(rows)?;
         let a = &solution.acceleration;
         let row = |i: usize| self.c.row(i).iter().copied().enumerate();
-        agree(rows, row, a, (&self.gamma, &self.terms), |i| {
+        let largest = self.terms.largest(a, (&self.mass, &self.force));
+        agree(rows, row, a, (&self.gamma, &self.terms, largest), |i| {
             let z = self.dependency(rows, i, &mut saddle)?;
-            let largest = self.terms.largest(a);
             let implied = rows
                 .kept
                 .iter()
@@ -335,7 +342,9 @@ fn sparse_solution(
     let row = |i: usize| layout.row(s, i);
     if !may_miss(mechanism) {
         let terms = RowTerms::of(mechanism, s, v, size);
-        agree(rows, row, &a, (&s.gamma, &terms), |_| Ok((0.0, 0.0)))?;
+        let largest = terms.largest(&a, (mechanism.mass(), force));
+        let of_rows = (&s.gamma[..], &terms, largest);
+        agree(rows, row, &a, of_rows, |_| Ok((0.0, 0.0)))?;
     }
     Ok(Solution {
         acceleration: a,
@@ -364,16 +373,15 @@ fn check_rows(rows: &RowDecision, m: usize) -> Result<(), ChoiceError> {
 }
 
 /// Checks that the dropped rows agree with these accelerations, each of which has the error of the
-/// largest. Where a row differs by more than the rounding of its own terms, `implied` returns the
+/// `largest`. Where a row differs by more than the rounding of its own terms, `implied` returns the
 /// terms of the kept rows in it, and what data explain.
 fn agree<R: Iterator<Item = (usize, f64)>>(
     rows: &RowDecision,
     row: impl Fn(usize) -> R,
     a: &[f64],
-    (gamma, terms): (&[f64], &RowTerms),
+    (gamma, terms, largest): (&[f64], &RowTerms, f64),
     mut implied: impl FnMut(usize) -> Result<(f64, f64), ChoiceError>,
 ) -> Result<(), ChoiceError> {
-    let largest = terms.largest(a);
     let share = AGREEMENT.max(rows.support_tolerance);
     for &i in &rows.dropped {
         let by = (row(i).map(|(j, c)| c * a[j]).sum::<f64>() - gamma[i]).abs();

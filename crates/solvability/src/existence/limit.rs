@@ -7,7 +7,7 @@
 //! `zᵀ·Φq = 0` there, a velocity w with `Φq·w = 0` changes time by
 //! `t'' = zᵀ·Γ(w) / (zᵀ·Φ_t)`; time has a maximum if this is negative.
 
-use linalg::{Matrix, PivotedQr, least_squares_step};
+use linalg::{Matrix, PivotedQr, least_squares_step, symmetric_eigen};
 use model::start::scene_size;
 use model::words::rounded;
 use model::{ConstraintId, Mechanism, Scratch, System};
@@ -351,22 +351,33 @@ impl<'m> Curve<'m> {
 /// Whether a quadratic form of the columns of `free` has a maximum at zero: negative along one of
 /// them, and nowhere positive.
 fn highest_of_form(free: &Matrix, form: &mut impl FnMut(&[f64]) -> f64) -> bool {
-    let column = |a: usize, b: usize, sign: f64| -> Vec<f64> {
-        (0..free.nrows())
-            .map(|i| free[(i, a)] + sign * free[(i, b)])
-            .collect()
-    };
-    match free.ncols() {
-        1 => form(&column(0, 0, 0.0)) < 0.0,
-        n if n <= LIMIT_FORMS => {
-            let (a, b) = (form(&column(0, 0, 0.0)), form(&column(1, 1, 0.0)));
-            let mixed = 0.25 * (form(&column(0, 1, 1.0)) - form(&column(0, 1, -1.0)));
-            // The eigenvalues of [a mixed; mixed b].
-            let (middle, half) = (0.5 * (a + b), (0.5 * (a - b)).hypot(mixed));
-            middle - half < 0.0 && middle + half <= LIMIT_ROUNDING * (half - middle)
-        }
-        _ => false,
+    let n = free.ncols();
+    if n > LIMIT_FORMS {
+        return false;
     }
+    let mut of = |a: usize, b: usize| {
+        let sum: Vec<f64> = (0..free.nrows())
+            .map(|i| free[(i, a)] + free[(i, b)])
+            .collect();
+        form(&sum)
+    };
+    // By polarisation: 2·f(a, b) = f(a + b) − f(a) − f(b), and f(a + a) = 4·f(a).
+    let own: Vec<f64> = (0..n).map(|a| 0.25 * of(a, a)).collect();
+    let mut matrix = Matrix::zeros(n, n);
+    for a in 0..n {
+        matrix[(a, a)] = own[a];
+        for b in 0..a {
+            let mixed = 0.5 * (of(a, b) - own[a] - own[b]);
+            (matrix[(a, b)], matrix[(b, a)]) = (mixed, mixed);
+        }
+    }
+    if matrix.first_non_finite().is_some() {
+        return false;
+    }
+    let values = symmetric_eigen(&matrix).values;
+    let least = values.iter().copied().fold(0.0, f64::min);
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    least < 0.0 && most <= LIMIT_ROUNDING * -least
 }
 
 #[cfg(test)]

@@ -140,6 +140,15 @@ fn a_free_arm_reaches_as_far_as_it_is_long() {
     let value = found.drives[0].value.expect("a length");
     assert!((value - 2.0).abs() < 1e-9, "{value}");
 
+    // Pendulums beside it are free as well, and do not matter.
+    for place in [3.0, 4.0, 5.0] {
+        bar(&mut d, GROUND, [place, 0.0], 0.3);
+    }
+    let beside = limit(&d).expect("it is straight at 2 m");
+    assert_eq!(beside.drives.len(), 1);
+    let value = beside.drives[0].value.expect("a length");
+    assert!((value - 2.0).abs() < 1e-9, "{value}");
+
     let mut d = Description::new("crank");
     let (_, crank) = bar(&mut d, GROUND, [0.0; 2], PI / 3.0);
     let motor = RevoluteAngleDrive::new([0.0; 2], d.local(crank, [0.0; 2]));
