@@ -294,7 +294,7 @@ pub(crate) const LIMIT_ROUNDING: f64 = 1e-6;
 /// Free velocities there, at most: the curvature of more is not examined.
 /// Unit: velocities. Less: drives of mechanisms with a free motion are not named. More: curvatures
 /// are not examined. Test: `a_free_arm_reaches_as_far_as_it_is_long`.
-pub(crate) const LIMIT_FORMS: usize = 2;
+pub(crate) const LIMIT_FORMS: usize = 12;
 
 // Drives that contradict each other.
 
@@ -524,6 +524,12 @@ pub(crate) const AT_REST_SPEED: f64 = 1e-12;
 /// count. Test: `loads_that_cancel_do_not_push`.
 pub(crate) const PUSHES: f64 = 1e-9;
 
+/// Forces of a load below this share of the largest are its rounding: where rods meet at a centre
+/// of mass, gravity turns nothing.
+/// Unit: share of the largest force. Less: rounding pushes. More: small loads push nothing. Test:
+/// `rods_that_meet_at_the_centre_of_mass_carry_it`.
+pub(crate) const ROUNDING_PUSH: f64 = 1e-12;
+
 // Freedoms.
 
 /// Motions that are reported; of the others there is a count.
@@ -587,6 +593,60 @@ pub(crate) const OF_ONE_JOINT: f64 = 1e3;
 /// Unit: share of the size, or rad. Less: fragile reactions are not found. More: all are fragile.
 /// Test: `a_beam_by_hand`.
 pub const MOVED: f64 = 1e-4;
+
+/// Above this smallest singular value of the kept rows (of length one) first order is enough for
+/// displacements of [`MOVED`].
+/// Unit: singular value. Less: changes near limit positions are told too small. More: time. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+pub(crate) const NEAR_LIMIT: f64 = 5e-2;
+
+/// A number that changes by less than this to first order is not made fragile by higher ones.
+/// Unit: share of the number or the load. Less: time. More: changes near limit positions are told
+/// too small. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+pub(crate) const FIRST_ORDER: f64 = 0.01;
+
+/// Data that change a number by at least this share of its largest change are displaced near a
+/// limit: which of them changes it most is not known to first order.
+/// Unit: share. Less: time. More: a number changes more by another datum. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+pub(crate) const ALIKE: f64 = 0.7;
+
+/// Data that are displaced near a limit, at most: those that move a number most.
+/// Unit: data. Less: a number hangs on one that is not displaced. More: time. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+pub(crate) const FOLLOWED_DATA: usize = 64;
+
+/// The same as a product with rows and the square of columns: a step factors all of them.
+/// Unit: operations. Less: large parts near a limit are told to first order. More: time. Test:
+/// none, work only.
+pub(crate) const FOLLOWED_WORK: usize = 100_000_000;
+
+/// Steps in which bodies follow a displaced datum.
+/// Unit: steps. Less: they leave their branch. More: time. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+pub(crate) const FOLLOW_STEPS: usize = 8;
+
+/// Share of the displacement in the first step, which shows how fast bodies move.
+/// Unit: share. Less: rounding is their speed. More: a jump in it is not noticed. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+pub(crate) const FOLLOW_FIRST: f64 = 1e-3;
+
+/// A step that moves bodies by this multiple of the one before has left the branch.
+/// Unit: multiples. Less: bodies on the way to their limit have left it. More: other branches are
+/// not noticed. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+pub(crate) const FOLLOW_JUMP: f64 = 4.0;
+
+/// Corrections of a step.
+/// Unit: corrections. Less: places near the limit are not reached. More: time. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+pub(crate) const FOLLOW_CORRECTIONS: usize = 12;
+
+/// A correction below this is the last one.
+/// Unit: share of the size. Less: rounding is corrected. More: reactions lose digits. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+pub(crate) const FOLLOW_END: f64 = 1e-11;
 
 /// A number of reactions that changes by more than this share of itself, or of the largest load, is
 /// fragile.

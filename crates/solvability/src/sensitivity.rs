@@ -8,6 +8,10 @@
 //! y of the same symmetric equations with right-hand side (0, w) gives the change with respect to
 //! all points at once: `−y_aᵀ·δCᵀ·λ + y_λᵀ·(δΓ − δC·a) + δwᵀ·λ`.
 //!
+//! That is first order. Near a limit position reactions grow faster: where the kept rows are nearly
+//! dependent, and a number changes by 1 % to 10 % to first order, the mechanism with the displaced
+//! point is solved (`displaced`), and the larger of both changes is told.
+//!
 //! Size and loads are those of a set of connected bodies: the result for a robot is the same alone
 //! and in a fleet, even if springs couple it to others. The load of a spring does not change, so a
 //! stiff spring makes no reaction fragile that the constraints determine well.
@@ -19,6 +23,7 @@
 //! Data whose uncertainty changes the rank itself are the subject of `numerical_rank`.
 
 mod by_sets;
+mod displaced;
 mod groups;
 mod held;
 mod instant;

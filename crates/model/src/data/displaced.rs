@@ -57,6 +57,24 @@ impl DataBlock {
     }
 }
 
+impl DataBlock {
+    /// The unit vector along which [`Self::displaced`] changes a value with this gradient with
+    /// respect to all numbers most; zero if nothing does.
+    #[must_use]
+    pub fn steepest(&self, gradient: &[f64]) -> [f64; 3] {
+        let part = self.part(gradient);
+        let along = match self.across {
+            Some(Across::Normal(n)) => {
+                let [u, v] = perpendicular(n).map(|e| (0..3).map(|k| e[k] * part[k]).sum());
+                [u, v, 0.0]
+            }
+            _ => part,
+        };
+        let length = norm(&along);
+        along.map(|x| if length > 0.0 { x / length } else { 0.0 })
+    }
+}
+
 /// Two unit vectors perpendicular to a unit vector and to each other.
 fn perpendicular(n: [f64; 3]) -> [[f64; 3]; 2] {
     let least = (0..3).fold(0, |a, k| if n[k].abs() < n[a].abs() { k } else { a });

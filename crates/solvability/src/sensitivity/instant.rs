@@ -1,8 +1,10 @@
 //! The solved equations of motion of connected bodies at one instant, and the gradients of numbers
 //! of reactions with respect to all data.
 
-use crate::limits::{LOAD_ROUNDING, MOVED, PIECE, SAME_EFFECT};
-use crate::pose::velocity_units;
+use crate::limits::{
+    ALIKE, FIRST_ORDER, FOLLOWED_DATA, FOLLOWED_WORK, FRAGILE, LOAD_ROUNDING, MOVED, NEAR_LIMIT,
+    PIECE, SAME_EFFECT,
+};
 use std::borrow::Cow;
 
 use linalg::{KeptRowSaddle, Matrix, PivotedQr};
@@ -12,6 +14,7 @@ use model::{
     ColumnKind, ConstraintId, DataBlock, DataGradients, DataUnit, Derivatives, Mechanism, System,
 };
 
+use super::displaced::Displaced;
 use super::held::{Held, HeldSlopes};
 use super::joined::Joined;
 use super::number::ReactionNumber;
@@ -32,6 +35,8 @@ pub(super) struct Instant<'a> {
     saddle: KeptRowSaddle,
     lambda: Vec<f64>,
     slopes: Slopes,
+    /// The equations with displaced data, where a pose of lower rank is near.
+    displaced: Option<Displaced<'a>>,
     /// Points, directions and numbers, with the displacement of each.
     blocks: Vec<(DataBlock, f64)>,
     /// Largest applied or inertial load (N; torques divided by the size).
@@ -93,7 +98,7 @@ impl<'a> Instant<'a> {
         mechanism.twist(&joined.v, &mut s);
         mechanism.gamma(&mut s);
         let size = scene_size(mechanism, &joined.q);
-        let units = velocity_units(mechanism, size);
+        let units = units(mechanism, size);
         let mut rows = Matrix::zeros(kept.len(), n);
         for (k, &i) in kept.iter().enumerate() {
             layout.scatter_row(&s, i, rows.row_mut(k));
@@ -105,16 +110,17 @@ impl<'a> Instant<'a> {
         saddle.solve(&joined.force, &gamma, &mut a, &mut of_kept)?;
         let mut v = Cow::Borrowed(&joined.v[..]);
         let mut load = largest_load(mechanism, &joined.force, &a, size);
+        let (mut mass, mut force) = (mechanism.mass().to_vec(), joined.force.to_vec());
         if load <= LOAD_ROUNDING * largest_stop(mechanism, &v, size) {
             // At rest and with equal masses: without a load there is no reference for speed or
             // mass.
             v = Cow::Owned(vec![0.0; n]);
             mechanism.twist(&v, &mut s);
             gamma.fill(0.0);
-            let mass: Vec<f64> = units.iter().map(|unit| 1.0 / (unit * unit)).collect();
+            mass = units.iter().map(|unit| 1.0 / (unit * unit)).collect();
             saddle.factor(|k| rows.row(k), &mass)?;
-            let unit = unit_loads(mechanism, size);
-            saddle.solve(&unit, &gamma, &mut a, &mut of_kept)?;
+            force = unit_loads(mechanism, size);
+            saddle.solve(&force, &gamma, &mut a, &mut of_kept)?;
             load = 1.0;
         }
         let mut lambda = vec![0.0; m];
@@ -133,12 +139,24 @@ impl<'a> Instant<'a> {
             let moved = workshop.max(block.tolerance.unwrap_or(0.0));
             (block, moved)
         };
+        let phi_q = Follow::new(&rows, kept[..holonomic].to_vec(), &units);
         Ok(Self {
+            displaced: is_near_limit(&rows, &units).then(|| Displaced {
+                mechanism,
+                t,
+                q: &joined.q,
+                v: v.to_vec(),
+                kept,
+                mass,
+                force,
+                units: units.clone(),
+                size,
+            }),
             slopes: Slopes {
                 derivatives,
                 by_data: mechanism.data().gradients(&s, &lambda, &a, &v),
                 c: feels_velocities.then(|| Follow::new(&rows, kept.to_vec(), &units)),
-                phi_q: Follow::new(&rows, kept[..holonomic].to_vec(), &units),
+                phi_q,
             },
             blocks: mechanism.data().blocks(&s).into_iter().map(moved).collect(),
             work: Work::new(n, m, kept.len()),
@@ -167,12 +185,88 @@ impl<'a> Instant<'a> {
         };
         let slopes = held.slopes(numbers, &self.blocks);
         let mut gradient = vec![0.0; self.mechanism.data().count()];
-        let each = numbers.iter().zip(&slopes);
-        each.map(|(number, slopes)| {
+        let mut strongest = Vec::new();
+        let each = numbers.iter().zip(&slopes).enumerate();
+        let each = each.map(|(k, (number, slopes))| {
             self.gradient(number, slopes, &mut gradient)?;
-            Ok(self.change(number, &gradient))
-        })
-        .collect()
+            let change = self.change(number, &gradient);
+            if self.displaced.is_some() {
+                strongest.extend(self.strongest((k, &change), &gradient));
+            }
+            Ok(change)
+        });
+        let mut changes = each.collect::<Result<Vec<_>, ChoiceError>>()?;
+        if let Some(displaced) = &self.displaced
+            && changes.iter().any(|change| change.share() >= FIRST_ORDER)
+        {
+            self.displace(displaced, numbers, strongest, &mut changes);
+        }
+        Ok(changes)
+    }
+
+    /// Takes the changes of the mechanisms with displaced data into account, the strongest data
+    /// first. Numbers that are fragile to first order stay as they are.
+    fn displace(
+        &self,
+        displaced: &Displaced<'_>,
+        numbers: &[ReactionNumber],
+        mut strongest: Vec<Displacement>,
+        changes: &mut [Change],
+    ) {
+        strongest.sort_by(|a, b| b.share.total_cmp(&a.share));
+        let mut all: Vec<Displacement> = Vec::new();
+        for own in strongest {
+            match all.iter_mut().find(|other| other.is_same(&own)) {
+                Some(known) => known.numbers.extend(own.numbers),
+                None => all.push(own),
+            }
+        }
+        let n = self.mechanism.layout().n_v;
+        all.truncate(FOLLOWED_DATA.min(FOLLOWED_WORK / (1 + self.kept.len() * n * n)));
+        let stored = self.mechanism.data().numbers();
+        for own in &all {
+            let (block, moved) = &self.blocks[own.block];
+            for sign in [1.0, -1.0] {
+                let there = displaced.values(numbers, |share: f64| {
+                    let mut all = stored.clone();
+                    let by = own.by.map(|x| sign * share * moved * x);
+                    let there = block.displaced(&stored[block.numbers.clone()], by);
+                    all[block.numbers.clone()].copy_from_slice(&there);
+                    all
+                });
+                for (k, change) in changes.iter_mut().enumerate() {
+                    let share = change.share();
+                    if share.is_nan() || share > FRAGILE {
+                        continue;
+                    }
+                    let other = match &there {
+                        Some(values) => (values[k] - change.value).abs(),
+                        // Without a pose a number that the datum moves is none.
+                        None if own.numbers.contains(&k) && share >= FIRST_ORDER => change.whole(),
+                        None => 0.0,
+                    };
+                    if other > change.largest {
+                        change.largest = other;
+                        change.by = Some(datum(block, *moved));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The data that change a number with this gradient nearly as much as the largest change.
+    fn strongest(&self, (number, change): (usize, &Change), gradient: &[f64]) -> Vec<Displacement> {
+        let each = self.blocks.iter().enumerate();
+        let strong = each.filter_map(|(k, (block, moved))| {
+            let own = block.change(gradient, *moved);
+            (own > 0.0 && own >= ALIKE * change.largest).then(|| Displacement {
+                numbers: vec![number],
+                block: k,
+                by: block.steepest(gradient),
+                share: own / change.whole(),
+            })
+        });
+        strong.collect()
     }
 
     /// The largest change of a number with this gradient.
@@ -184,20 +278,14 @@ impl<'a> Instant<'a> {
         let largest = changes.iter().copied().fold(0.0, f64::max);
         let mut changed = changes.iter();
         let first = changed.position(|change| SAME_EFFECT * change >= largest);
-        let by = first.filter(|_| largest > 0.0).map(|k| &self.blocks[k]);
+        let by = first.filter(|_| largest > 0.0);
         // NaN if the equations are too nearly singular.
         let is_known = changes.iter().all(|change| change.is_finite());
         Change {
             largest: if is_known { largest } else { f64::NAN },
             value: self.value(number, &self.lambda, number.joints()),
             load: self.load * number.unit(self.mechanism, self.size),
-            by: by.map(|(block, moved)| Datum {
-                joint: ConstraintId(block.group),
-                name: block.name,
-                moved: *moved,
-                unit: block.unit,
-                is_number: block.numbers.len() == 1,
-            }),
+            by: by.map(|k| datum(&self.blocks[k].0, self.blocks[k].1)),
         }
     }
 
@@ -279,13 +367,51 @@ pub(super) struct Change {
     pub(super) load: f64,
 }
 
+/// A datum that moves in the direction in which it changes some numbers most.
+struct Displacement {
+    /// Places of the numbers.
+    numbers: Vec<usize>,
+    block: usize,
+    /// Unit vector.
+    by: [f64; 3],
+    /// The largest of their changes to first order, as a share.
+    share: f64,
+}
+
+impl Displacement {
+    fn is_same(&self, other: &Self) -> bool {
+        let along: f64 = self.by.iter().zip(other.by).map(|(a, b)| a * b).sum();
+        self.block == other.block && along.abs() > 0.99
+    }
+}
+
+fn datum(block: &DataBlock, moved: f64) -> Datum {
+    Datum {
+        joint: ConstraintId(block.group),
+        name: block.name,
+        moved,
+        unit: block.unit,
+        is_number: block.numbers.len() == 1,
+    }
+}
+
 impl Change {
+    /// What it is a share of: the number, or the load.
+    fn whole(&self) -> f64 {
+        self.value.abs().max(self.load)
+    }
+
+    /// The change as a share; NaN if it is not known.
+    fn share(&self) -> f64 {
+        match self.by {
+            None if self.largest == 0.0 => 0.0,
+            _ => self.largest / self.whole(),
+        }
+    }
+
     /// The change as a fraction; `None` if it is not known.
     pub(super) fn relative(self) -> Option<Sensitivity> {
-        let change = match self.by {
-            None if self.largest == 0.0 => 0.0,
-            _ => self.largest / self.value.abs().max(self.load),
-        };
+        let change = self.share();
         let by = self.by;
         change.is_finite().then_some(Sensitivity { change, by })
     }
@@ -365,6 +491,28 @@ fn largest_load(mechanism: &Mechanism, force: &[f64], a: &[f64], size: f64) -> f
     };
     let bodies = 0..mechanism.bodies().len();
     bodies.map(of_body).fold(0.0, f64::max)
+}
+
+/// Whether rows of length one, with columns in these units, are near a lower rank.
+fn is_near_limit(rows: &Matrix, units: &[f64]) -> bool {
+    let mut scaled = Matrix::from_fn(rows.nrows(), units.len(), |i, j| rows[(i, j)] * units[j]);
+    for i in 0..rows.nrows() {
+        let length = linalg::kernels::norm(scaled.row(i));
+        scaled.row_mut(i).iter_mut().for_each(|x| *x /= length);
+    }
+    let weakest = rank::weakest_combination(&scaled);
+    weakest.is_some_and(|weakest| weakest.sigma < NEAR_LIMIT)
+}
+
+/// Velocities of one unit: 1 m/s, and the rate that moves a point at the size of the mechanism as
+/// fast. They weigh motions, so they are not rounded: a sensitivity does not depend on units.
+pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+    let kinds = mechanism.layout().column_kinds();
+    let unit = |kind: &ColumnKind| match kind {
+        ColumnKind::Translation => 1.0,
+        ColumnKind::Rotation => 1.0 / size,
+    };
+    kinds.iter().map(unit).collect()
 }
 
 /// The length to which manufacturing accuracy refers for the bodies of a joint (m): several times
