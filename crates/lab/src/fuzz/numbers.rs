@@ -38,6 +38,7 @@ pub mod oracle;
 mod refusals;
 pub mod run;
 pub mod scenes;
+mod second_order;
 pub mod sets;
 pub mod tally;
 pub mod verdicts;

@@ -17,6 +17,12 @@ const PIECE: f64 = 20.0;
 /// Displacement for derivatives, relative to the full one.
 const SMALL: f64 = 1e-3;
 
+/// A displacement is made in so many steps, so that bodies follow on their branch.
+const STEPS: usize = 8;
+
+/// A step that moves bodies by this multiple of the one before has left the branch.
+const JUMP: f64 = 5.0;
+
 /// Iterations of Newton's method, and the correction (sizes) after which there is no other.
 const ITERATIONS: usize = 12;
 const CONVERGED: f64 = 1e-13;
@@ -60,7 +66,8 @@ impl<'a> Displaced<'a> {
             frozen: [rows.of_positions(&s), rows.of_velocities(&s)],
             values: Vec::new(),
         };
-        found.values = found.with(mechanism, true)?;
+        let [mut q, mut v] = [&row.q, &row.v].map(|x| x.clone());
+        found.values = found.with(mechanism, (&mut q, &mut v), true)?;
         Some(found)
     }
 
@@ -75,7 +82,7 @@ impl<'a> Displaced<'a> {
             for axis in 0..block.directions() {
                 let mut by = [0.0; 3];
                 by[axis] = SMALL * moved;
-                let Some(values) = self.displaced(block, by, true) else {
+                let Some(values) = self.displaced_little(block, by) else {
                     continue;
                 };
                 for ((g, new), old) in gradients.iter_mut().zip(values).zip(&self.values) {
@@ -95,7 +102,7 @@ impl<'a> Displaced<'a> {
                 continue;
             }
             for sign in [1.0, -1.0] {
-                let values = self.displaced(&self.blocks[block], by.map(|x| sign * x), false);
+                let values = self.displaced(&self.blocks[block], by.map(|x| sign * x));
                 // Where nothing satisfies the displaced rows, first order is all there is.
                 let change = values.map_or(effect, |v| (v[k] - self.values[k]).abs());
                 changes[k] = changes[k].max(change);
@@ -119,27 +126,57 @@ impl<'a> Displaced<'a> {
         MOVED * self.size.min(piece)
     }
 
-    fn displaced(&self, block: &DataBlock, by: [f64; 3], is_small: bool) -> Option<Vec<f64>> {
+    fn with_displaced(&self, block: &DataBlock, by: [f64; 3]) -> Mechanism {
         let mut numbers = self.numbers.clone();
         let own = block.displaced(&self.numbers[block.numbers.clone()], by);
         numbers[block.numbers.clone()].copy_from_slice(&own);
-        self.with(&self.mechanism.with_numbers(&numbers), is_small)
+        self.mechanism.with_numbers(&numbers)
     }
 
-    /// The values of all components with other data. Small displacements are followed with the
-    /// matrices of the state itself.
-    fn with(&self, mechanism: &Mechanism, is_small: bool) -> Option<Vec<f64>> {
+    /// The values of all components with a datum displaced so little that the matrices of the state
+    /// itself serve.
+    fn displaced_little(&self, block: &DataBlock, by: [f64; 3]) -> Option<Vec<f64>> {
+        let [mut q, mut v] = [&self.row.q, &self.row.v].map(|x| x.clone());
+        self.with(&self.with_displaced(block, by), (&mut q, &mut v), true)
+    }
+
+    /// The values of all components with a displaced datum; `None` if nothing satisfies the
+    /// displaced rows on the branch of the state.
+    fn displaced(&self, block: &DataBlock, by: [f64; 3]) -> Option<Vec<f64>> {
+        let [mut q, mut v] = [&self.row.q, &self.row.v].map(|x| x.clone());
+        let (mut values, mut at, mut rate) = (None, 0.0, f64::INFINITY);
+        let all = (1..=STEPS).map(|k| k as f64 / STEPS as f64);
+        for share in std::iter::once(SMALL).chain(all) {
+            let mechanism = self.with_displaced(block, by.map(|x| share * x));
+            let begun = q.clone();
+            values = Some(self.with(&mechanism, (&mut q, &mut v), false)?);
+            let (_, moved) = mechanism.largest_difference(&q, &begun, self.size);
+            if moved > JUMP * rate * (share - at) {
+                return None;
+            }
+            rate = moved.max(CONVERGED * self.size) / (share - at);
+            at = share;
+        }
+        values
+    }
+
+    /// The values of all components with other data, and where bodies and velocities follow to.
+    fn with(
+        &self,
+        mechanism: &Mechanism,
+        (q, v): (&mut Vec<f64>, &mut Vec<f64>),
+        is_small: bool,
+    ) -> Option<Vec<f64>> {
         let rows = Kept::new(mechanism, self.kept, self.size);
-        let (mut q, mut v) = (self.row.q.clone(), self.row.v.clone());
         let mut s = mechanism.scratch();
         for k in 0.. {
-            mechanism.pose(self.row.t_before, &q, &mut s);
+            mechanism.pose(self.row.t_before, q, &mut s);
             mechanism.phi(&mut s);
             mechanism.c(&mut s);
             let step = if is_small {
-                rows.correct(&s, &self.frozen[0], &mut q)?
+                rows.correct(&s, &self.frozen[0], q)?
             } else {
-                rows.correct(&s, &rows.of_positions(&s), &mut q)?
+                rows.correct(&s, &rows.of_positions(&s), q)?
             };
             if step <= CONVERGED * self.size {
                 break;
@@ -148,15 +185,15 @@ impl<'a> Displaced<'a> {
                 return None;
             }
         }
-        mechanism.pose(self.row.t_before, &q, &mut s);
+        mechanism.pose(self.row.t_before, q, &mut s);
         mechanism.c(&mut s);
         mechanism.b(&mut s);
         let own = (!is_small).then(|| rows.of_velocities(&s));
         let by = own.as_ref().unwrap_or(&self.frozen[1]);
         // Twice, for the matrices of the state itself.
-        rows.correct_velocities(&s, by, &mut v)?;
-        rows.correct_velocities(&s, by, &mut v)?;
-        mechanism.twist(&v, &mut s);
+        rows.correct_velocities(&s, by, v)?;
+        rows.correct_velocities(&s, by, v)?;
+        mechanism.twist(v, &mut s);
         mechanism.gamma(&mut s);
         let lambda = rows.multipliers(&s, &self.force)?;
         let forms = forms(mechanism, &s, self.size);

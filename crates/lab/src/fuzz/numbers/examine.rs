@@ -24,6 +24,10 @@ const AT_STATE: f64 = 1e-8;
 /// A load below this (N) counts as zero.
 const LOAD: f64 = 1e-9;
 
+/// Numbers below this (N) are rounding: forces of inertia come from coordinates of metres and
+/// velocities of metres a second.
+const ROUNDING: f64 = 1e-12;
+
 /// The findings at a scene; the numbers choose rows to drop and compliances.
 #[must_use]
 pub fn examine(text: &str, numbers: &mut Numbers) -> Findings {
@@ -113,10 +117,30 @@ impl<'a> Examined<'a> {
             compliances,
         };
         let which = numbers.below(examined.states.len());
-        examined.at_states(findings);
-        examined.choices(which, findings);
-        examined.between_runs(text, findings);
+        examined.at_states(judge, findings);
+        examined.choices(judge, which, findings);
+        examined.between_runs(judge, text, findings);
         examined.displaced(judge, which, findings);
+    }
+
+    /// Whether two values of the component k at a state differ by more than this share of what they
+    /// are compared with. A component that is fragile at this state alone is compared as one.
+    fn differ(
+        &self,
+        judge: &dyn Judge,
+        (row, instant, forms): &(&Row, Instant, Vec<Form>),
+        (k, values): (usize, &[f64]),
+        share: f64,
+    ) -> bool {
+        let (load, span) = (instant.load, span(values));
+        // What `f64` resolves of a solution with this smallest singular value.
+        let largest = values.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        let resolved = ROUNDING.max(f64::EPSILON / instant.sigma * largest);
+        let is_within = |sensitivity: Option<f64>| {
+            span <= (share * reference(sensitivity, values, load)).max(resolved)
+        };
+        let here = || judge.sensitivities(self.mechanism, forms, row)?.each[k];
+        !is_within(self.verdicts[k].sensitivity) && !is_within(here())
     }
 
     fn name(&self, form: &Form) -> String {
@@ -144,14 +168,13 @@ impl<'a> Examined<'a> {
 
 /// What an agreement is a share of: the load; for a fragile component the larger of its value and
 /// of the load times its sensitivity.
-fn reference(own: &OnRun, values: &[f64], load: f64) -> f64 {
-    if !own.is_fragile() {
-        return load;
+fn reference(sensitivity: Option<f64>, values: &[f64], load: f64) -> f64 {
+    match sensitivity {
+        Some(sensitivity) if sensitivity > solvability::FRAGILE => values
+            .iter()
+            .fold(load * sensitivity.max(1.0), |a, x| a.max(x.abs())),
+        _ => load,
     }
-    let sensitivity = own.sensitivity.unwrap_or(1.0).max(1.0);
-    values
-        .iter()
-        .fold(load * sensitivity, |a, x| a.max(x.abs()))
 }
 
 fn span(values: &[f64]) -> f64 {

@@ -66,6 +66,9 @@ pub enum Count {
     DoesNotMove,
     /// Mechanisms that are refused at a singular configuration.
     SingularStart,
+    /// Mechanisms that are refused because no reaction is finite, where accelerations from rest
+    /// break the equations of second order.
+    NoFinite,
     /// Mechanisms that are refused for given velocities that no motion has.
     NoVelocities,
     /// Mechanisms that are refused for the text.
@@ -106,6 +109,7 @@ impl Count {
             Self::Cut => "runs that took too many steps",
             Self::DoesNotMove => "refused, and does not move",
             Self::SingularStart => "refused at a singular configuration",
+            Self::NoFinite => "refused, and no reaction is finite",
             Self::NoVelocities => "refused for velocities that no motion has",
             Self::NoScene => "refused for the text",
             Self::Redundant => "mechanisms with redundant rows",

@@ -9,11 +9,14 @@ use super::decomposition::Decomposition;
 use super::oracle::units;
 use crate::numbers::Numbers;
 
-/// Length of a step, in sizes of the mechanism.
+/// Length of a step along what drives require, in sizes of the mechanism.
 const STEP: f64 = 1e-3;
 
-/// Residuals of rows after the step, in sizes of the mechanism. A freedom that second order blocks
-/// leaves the square of the step, 1e-6.
+/// Length of a step along a free motion. It is long enough to tell a freedom that third order
+/// blocks, whose residual is the cube of what is left of the step.
+const FREE_STEP: f64 = 1e-2;
+
+/// Residuals of rows after the step, in sizes of the mechanism.
 const ON_ROWS: f64 = 1e-12;
 
 /// Singular values below this fraction of the largest one count as zero in a correction.
@@ -122,15 +125,22 @@ pub fn moves(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers
     }
     (0..TRIES).any(|_| {
         c.free(numbers).is_some_and(|v| {
-            let step: Vec<f64> = v.iter().map(|x| STEP * x * size).collect();
+            let step: Vec<f64> = v.iter().map(|x| FREE_STEP * x * size).collect();
             steps(mechanism, t, (q, &step), size)
         })
     })
 }
 
-/// Whether the motion goes on for a time `dt` after a state, in short steps that follow each other.
+/// Whether the motion goes on for a time `dt` after a state.
 #[must_use]
-pub fn marches(mechanism: &Mechanism, (t, q, v): (f64, &[f64], &[f64]), dt: f64) -> bool {
+pub fn marches(mechanism: &Mechanism, state: (f64, &[f64], &[f64]), dt: f64) -> bool {
+    march(mechanism, state, dt).is_some()
+}
+
+/// The configuration a time `dt` after a state, in short steps that follow each other; `None` if
+/// one of them does not end on the constraints.
+#[must_use]
+pub fn march(mechanism: &Mechanism, (t, q, v): (f64, &[f64], &[f64]), dt: f64) -> Option<Vec<f64>> {
     let size = scene_size(mechanism, q);
     let short = dt / MARCH as f64;
     let positions = all(mechanism.layout().m);
@@ -145,12 +155,12 @@ pub fn marches(mechanism: &Mechanism, (t, q, v): (f64, &[f64], &[f64]), dt: f64)
             &mut next,
             size,
         ) {
-            return false;
+            return None;
         }
         mechanism.difference(&next, &at, &mut step);
         at = next;
     }
-    true
+    Some(at)
 }
 
 /// Whether Newton's method at time t, begun at `q + step`, ends on the constraints and away from q.

@@ -46,6 +46,8 @@ pub struct Instant {
     row_scale: Vec<f64>,
     /// The solution of least norm of the scaled rows.
     lambda: DVector<f64>,
+    /// Accelerations (n_v).
+    pub acceleration: Vec<f64>,
     /// The left null space of the scaled C, orthonormal columns.
     pub null: DMatrix<f64>,
 }
@@ -83,9 +85,14 @@ impl Instant {
             size,
             rank: parts.range.rank(),
             sigma: parts.sigma,
-            load: largest(&s.force, &column_scale).max(largest(&inertial, &column_scale)),
+            load: largest(mechanism, &s.force, &column_scale).max(largest(
+                mechanism,
+                &inertial,
+                &column_scale,
+            )),
             lambda: parts.range.solve_transposed(&scaled),
             null: complement(&parts.range.left, m - parts.range.rank()),
+            acceleration: a,
             row_scale,
         })
     }
@@ -225,7 +232,13 @@ pub(super) fn inverse(x: f64) -> f64 {
     if x > 0.0 { 1.0 / x } else { 1.0 }
 }
 
-fn largest(load: &[f64], scale: &[f64]) -> f64 {
-    let each = load.iter().zip(scale).map(|(f, d)| (f * d).abs());
-    each.fold(0.0, f64::max)
+/// The largest force on a body, and torque divided by the size, as vectors: single components
+/// depend on the axes.
+fn largest(mechanism: &Mechanism, load: &[f64], scale: &[f64]) -> f64 {
+    let space = mechanism.space();
+    let length =
+        |columns: std::ops::Range<usize>| columns.map(|j| load[j] * scale[j]).fold(0.0, f64::hypot);
+    let of_body = |body| length(space.translations_of(body)).max(length(space.rotations_of(body)));
+    let bodies = 0..mechanism.bodies().len();
+    bodies.map(of_body).fold(0.0, f64::max)
 }

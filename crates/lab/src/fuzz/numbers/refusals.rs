@@ -8,9 +8,10 @@ use pfaff::{AssembledScene, StudyError};
 
 use super::decomposition::Decomposition;
 use super::findings::{Count, Findings, Kind};
-use super::moves::{marches, moves, ranks};
+use super::moves::{march, marches, moves, ranks};
 use super::oracle::{Fault, Instant, inverse};
-use super::run::{Row, Run};
+use super::run::Run;
+use super::second_order::SecondOrder;
 use crate::numbers::Numbers;
 
 /// How long the motion is to go on where a run stopped (s).
@@ -35,8 +36,7 @@ pub(super) fn at_start(
         Err(_) => return findings.note(Kind::Refused, format!("not assembled: {error}")),
     };
     let mechanism = &assembled.mechanism;
-    let [here, near] = ranks(mechanism, (0.0, &q), numbers);
-    if here < near {
+    if is_singular(mechanism, (0.0, &q), numbers) {
         return findings.count(Count::SingularStart, 1);
     }
     if !has_velocities(mechanism, &q) {
@@ -84,35 +84,32 @@ pub(super) fn on_the_way(
 ) {
     let mechanism = &run.study.prepared.mechanism;
     let Some(row) = run.rows.last() else {
-        let state = (0.0, &run.study.prepared.q[..]);
-        let [here, near] = ranks(mechanism, state, numbers);
-        if here < near {
-            findings.count(Count::SingularStart, 1);
-        } else if moves(mechanism, state, numbers) {
-            findings.note(Kind::Refused, format!("at the start: {error}"));
-        } else {
-            findings.count(Count::DoesNotMove, 1);
-        }
-        return;
+        let at = (0.0, &run.study.prepared.q[..]);
+        let reason = match error {
+            MotionError::NoFiniteReaction(found) if found.decided && is_finite(run) => None,
+            MotionError::NoFiniteReaction(_) => Some(Count::NoFinite),
+            _ if is_singular(mechanism, at, numbers) => Some(Count::SingularStart),
+            _ if moves(mechanism, at, numbers) => None,
+            _ => Some(Count::DoesNotMove),
+        };
+        return match reason {
+            Some(reason) => findings.count(reason, 1),
+            None => findings.note(Kind::Refused, format!("at the start: {error}")),
+        };
     };
     if matches!(error, MotionError::Integration(e) if matches!(**e, IntegrationError::TooManySteps { .. }))
     {
         return findings.count(Count::Cut, 1);
     }
-    let is_singular = is_near_singular(mechanism, row) || {
-        let [here, near] = ranks(mechanism, (row.t_before, &row.q), numbers);
-        here < near
-    };
-    // From rest the motion goes anywhere, later on as it went.
-    let goes_on = if row.t == 0.0 {
-        moves(mechanism, (0.0, &row.q), numbers)
-    } else {
-        marches(
-            mechanism,
-            (row.t, &row.q, &row.v),
-            run.reached - row.t + AFTER,
-        )
-    };
+    let (state, left) = ((row.t, &row.q[..], &row.v[..]), run.reached - row.t);
+    let is_singular = is_near_singular(mechanism, (row.t_before, &row.q, &row.v))
+        || is_singular(mechanism, (row.t_before, &row.q), numbers)
+        || march(mechanism, state, left)
+            .is_some_and(|q| is_near_singular(mechanism, (run.reached, &q, &row.v)));
+    // The motion goes on as it went, from rest along any free motion.
+    let is_at_rest = row.v.iter().all(|v| *v == 0.0);
+    let goes_on = marches(mechanism, state, left + AFTER)
+        && (!is_at_rest || moves(mechanism, (row.t, &row.q), numbers));
     if is_singular || !goes_on {
         findings.count(Count::Stopped, 1);
     } else {
@@ -121,8 +118,27 @@ pub(super) fn on_the_way(
     }
 }
 
-fn is_near_singular(mechanism: &Mechanism, row: &Row) -> bool {
-    match Instant::new(mechanism, (row.t_before, &row.q, &row.v)) {
+/// Whether the accelerations of the start satisfy the equations of second order.
+fn is_finite(run: &Run) -> bool {
+    let prepared = &run.study.prepared;
+    let (mechanism, at) = (&prepared.mechanism, (0.0, &prepared.q[..]));
+    let instant = Instant::new(mechanism, (0.0, &prepared.q, &prepared.v));
+    let order = SecondOrder::at(mechanism, at);
+    match (instant, order) {
+        (Ok(instant), Some(mut order)) => order.holds(&instant.acceleration),
+        _ => false,
+    }
+}
+
+/// Whether the rank is lower at a configuration than near it, or a motion that all rows allow to
+/// first order is forbidden by second order.
+fn is_singular(mechanism: &Mechanism, at: (f64, &[f64]), numbers: &mut Numbers) -> bool {
+    let [here, near] = ranks(mechanism, at, numbers);
+    here < near || SecondOrder::at(mechanism, at).is_none_or(|mut o| o.is_restricted(numbers))
+}
+
+fn is_near_singular(mechanism: &Mechanism, state: (f64, &[f64], &[f64])) -> bool {
+    match Instant::new(mechanism, state) {
         Ok(instant) => instant.sigma < 1e-3,
         Err(fault) => fault == Fault::Unclear,
     }

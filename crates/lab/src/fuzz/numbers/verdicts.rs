@@ -53,12 +53,6 @@ impl OnRun {
     pub fn is_determined(&self, t: f64) -> bool {
         self.at(t).is_some_and(|s| s.word == Word::Unique)
     }
-
-    /// Whether it is sensitive to data.
-    #[must_use]
-    pub fn is_fragile(&self) -> bool {
-        self.sensitivity.is_some_and(|s| s > solvability::FRAGILE)
-    }
 }
 
 /// What is examined: verdicts and sensitivities.
@@ -89,7 +83,13 @@ impl Judge for Product {
     fn on_run(&self, run: &Run, forms: &[Form]) -> Result<Vec<OnRun>, AnalysisError> {
         let (mechanism, rows) = (&run.study.prepared.mechanism, &run.rows[..]);
         let mut all: Vec<OnRun> = forms.iter().map(|form| on_run(run, form)).collect();
-        // Sensitivities of the middle of each stretch.
+        // Sensitivities of the start, which a run tells, and of the middle of each stretch.
+        if let Some(row) = rows.first() {
+            let found = sensitivities(mechanism, &analysis(mechanism, row)?, forms, row);
+            for (own, new) in all.iter_mut().zip(found.iter().flat_map(|f| &f.each)) {
+                own.sensitivity = *new;
+            }
+        }
         for piece in ends(rows, &run.cuts).windows(2) {
             let inside = |row: &&Row| piece[0] < row.t && row.t < piece[1];
             let states: Vec<&Row> = rows.iter().filter(inside).collect();

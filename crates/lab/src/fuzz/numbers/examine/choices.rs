@@ -6,11 +6,12 @@ use model::Known;
 use nalgebra::DVector;
 use solvability::{Choice, Questions, analyse_known, solution};
 
-use super::{AT_STATE, Examined, LOAD, reference};
+use super::{AT_STATE, Examined, ROUNDING, span};
 use crate::fuzz::numbers::findings::{Findings, Kind};
 use crate::fuzz::numbers::moves::ranks;
 use crate::fuzz::numbers::run::RTOL;
 use crate::fuzz::numbers::sets::{elastic, without};
+use crate::fuzz::numbers::verdicts::Judge;
 use crate::numbers::Numbers;
 
 /// Agreement of chosen numbers, of the largest of them.
@@ -18,9 +19,10 @@ const CHOSEN: f64 = 1e-7;
 
 impl Examined<'_> {
     /// The choices of the product at one state, compared with the same ones of the oracle.
-    pub(super) fn choices(&self, which: usize, findings: &mut Findings) {
-        let (row, instant, forms) = &self.states[which];
-        let state = (row.t_before, &row.q[..], &row.v[..]);
+    pub(super) fn choices(&self, judge: &dyn Judge, which: usize, findings: &mut Findings) {
+        let state = &self.states[which];
+        let (row, instant, forms) = state;
+        let solved = (row.t_before, &row.q[..], &row.v[..]);
         let known = if row.t == 0.0 {
             Known::AsStored
         } else {
@@ -29,7 +31,7 @@ impl Examined<'_> {
         let Ok(analysis) = analyse_known(self.mechanism, row.t_before, &row.q, known) else {
             return;
         };
-        let solved = match solution(self.mechanism, state, &analysis.decision) {
+        let solved = match solution(self.mechanism, solved, &analysis.decision) {
             Ok(solved) => solved,
             Err(error) => {
                 let at = (row.t_before, &row.q[..]);
@@ -71,18 +73,21 @@ impl Examined<'_> {
                 .map(|form| instant.scaled(form).dot(&own))
                 .collect();
             let largest = values.iter().fold(instant.load, |a, x| a.max(x.abs()));
-            for ((form, right), verdict) in forms.iter().zip(&values).zip(&self.verdicts) {
+            for (k, (form, right)) in forms.iter().zip(&values).enumerate() {
                 let components = &found.reactions[form.group].components;
                 let of = components.iter().find(|(name, _)| *name == form.name);
                 let Some((_, value)) = of else { continue };
-                let fact = AT_STATE * reference(verdict, &[*right], instant.load);
-                let determined = value.determined().map(|x| (x, fact));
-                let chosen = value.of_choice().map(|(x, _)| (x, CHOSEN * largest));
                 // No number is not a wrong one.
-                let Some((given, permitted)) = determined.or(chosen) else {
+                let Some(given) = value.in_solution() else {
                     continue;
                 };
-                if (form.unit * given - right).abs() > permitted.max(AT_STATE * LOAD) {
+                let pair = [form.unit * given, *right];
+                let is_wrong = if value.determined().is_some() {
+                    self.differ(judge, state, (k, &pair), AT_STATE)
+                } else {
+                    span(&pair) > (CHOSEN * largest).max(ROUNDING)
+                };
+                if is_wrong {
                     let text = format!(
                         "`{}` by {choice:?} at t = {} s: {:?} N, right {right:?} N",
                         self.name(form),

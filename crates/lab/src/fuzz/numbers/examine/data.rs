@@ -1,5 +1,7 @@
 //! (c) at one state: data displaced one at a time.
 
+use model::System;
+
 use super::{Examined, LOAD};
 use crate::fuzz::numbers::displaced::Displaced;
 use crate::fuzz::numbers::findings::{Count, Findings, Kind};
@@ -13,7 +15,9 @@ impl Examined<'_> {
     /// (c) at one state.
     pub(super) fn displaced(&self, judge: &dyn Judge, which: usize, findings: &mut Findings) {
         let (row, instant, forms) = &self.states[which];
-        if instant.load <= LOAD {
+        // Each set of connected bodies has a size and loads of its own.
+        let joints: Vec<usize> = (0..self.mechanism.layout().groups.len()).collect();
+        if instant.load <= LOAD || self.mechanism.joined(&joints).len() > 1 {
             return;
         }
         let Some(called) = judge.sensitivities(self.mechanism, forms, row) else {

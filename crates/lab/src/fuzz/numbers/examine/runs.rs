@@ -1,8 +1,9 @@
 //! (a) in separate runs of the product, each without other rows.
 
-use super::{Examined, LOAD, reference, span};
+use super::Examined;
 use crate::fuzz::numbers::findings::{Count, Findings, Kind};
 use crate::fuzz::numbers::run::{Row, prepared, run};
+use crate::fuzz::numbers::verdicts::Judge;
 
 /// Agreement of two runs, of the load, where their states agree to [`SAME_STATE`].
 const BETWEEN_RUNS: f64 = 1e-7;
@@ -10,14 +11,15 @@ const SAME_STATE: f64 = 1e-10;
 
 impl Examined<'_> {
     /// (a) in separate runs, each without other rows.
-    pub(super) fn between_runs(&self, text: &str, findings: &mut Findings) {
+    pub(super) fn between_runs(&self, judge: &dyn Judge, text: &str, findings: &mut Findings) {
         for rows in self.sets.iter().take(2) {
             // A set that is admissible on the way may not be at the start.
             let Ok(study) = prepared(text, Some(rows)) else {
                 continue;
             };
             let other = run(study);
-            for (row, instant, forms) in &self.states {
+            for state in &self.states {
+                let (row, instant, forms) = state;
                 let Some(twin) = other.rows.iter().find(|r| r.t == row.t) else {
                     continue;
                 };
@@ -25,7 +27,7 @@ impl Examined<'_> {
                     findings.count(Count::OtherStates, 1);
                     continue;
                 }
-                for (form, own) in forms.iter().zip(&self.verdicts) {
+                for (k, (form, own)) in forms.iter().zip(&self.verdicts).enumerate() {
                     let pair = [row, twin].map(|r| r.reactions.get(form.group));
                     let [Some(one), Some(two)] = pair else {
                         continue;
@@ -35,8 +37,7 @@ impl Examined<'_> {
                     }
                     let values = [one, two].map(|r| form.of(self.mechanism, r));
                     findings.count(Count::BetweenRuns, 1);
-                    let permitted = BETWEEN_RUNS * reference(own, &values, instant.load);
-                    if span(&values) > permitted.max(BETWEEN_RUNS * LOAD) {
+                    if self.differ(judge, state, (k, &values), BETWEEN_RUNS) {
                         let text = format!(
                             "`{}` at t = {} s without rows {rows:?} (from 0): {values:?} N, load {:.3e} N",
                             self.name(form),

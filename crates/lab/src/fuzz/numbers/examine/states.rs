@@ -1,11 +1,11 @@
 //! (a) and (b): the solutions at each state, and the product's value there.
 
-use super::{AT_STATE, Examined, LOAD, reference, span};
+use super::{AT_STATE, Examined, LOAD, span};
 use crate::fuzz::numbers::findings::{Count, Findings, Kind};
 use crate::fuzz::numbers::forms::Form;
 use crate::fuzz::numbers::oracle::Instant;
 use crate::fuzz::numbers::run::Row;
-use crate::fuzz::numbers::verdicts::{OnRun, Word};
+use crate::fuzz::numbers::verdicts::{Judge, Word};
 
 /// Two solutions differ where a component does by more than this share of the load.
 const DIFFERS: f64 = 1e-6;
@@ -16,12 +16,13 @@ const FREE: f64 = 1e-10;
 
 impl Examined<'_> {
     /// (a) and (b) at each state.
-    pub(super) fn at_states(&self, findings: &mut Findings) {
-        // By component and its own stretches: whether solutions differ there, whether it is free
+    pub(super) fn at_states(&self, judge: &dyn Judge, findings: &mut Findings) {
+        // By component and its own stretches: whether solutions differ inside, whether it is free
         // there; `None` where no state is.
         let own = self.verdicts.iter().map(|own| own.stretches.len());
         let mut found: Vec<Vec<Option<[bool; 2]>>> = own.map(|count| vec![None; count]).collect();
-        for (row, instant, forms) in &self.states {
+        for state in &self.states {
+            let (row, instant, forms) = state;
             let solutions = self.solutions(instant, forms);
             for (k, (form, own)) in forms.iter().zip(&self.verdicts).enumerate() {
                 let Some(at) = own.stretches.iter().rposition(|s| s.from <= row.t) else {
@@ -33,8 +34,7 @@ impl Examined<'_> {
                 let is_free = instant.margin(form, forms) > FREE / instant.sigma;
                 if own.is_determined(row.t) {
                     findings.count(Count::Values, 1);
-                    let permitted = AT_STATE * reference(own, &values, instant.load);
-                    if span > permitted.max(AT_STATE * LOAD) || is_free {
+                    if is_free || self.differ(judge, state, (k, &values), AT_STATE) {
                         let text = format!(
                             "`{}` at t = {} s: {values:?} N, load {:.3e} N, margin {:.1e}, σ {:.1e}",
                             self.name(form),
@@ -45,8 +45,10 @@ impl Examined<'_> {
                         );
                         findings.note(Kind::States, text);
                     }
-                    self.value(row, instant, (form, own), findings);
-                } else {
+                    self.value(judge, state, k, findings);
+                } else if own.stretches[at].from < row.t {
+                    // An instant at which it begins may differ.
+
                     let [differs, free] = found[k][at].get_or_insert_default();
                     *differs |= span > DIFFERS * instant.load.max(LOAD);
                     *free |= is_free;
@@ -79,11 +81,13 @@ impl Examined<'_> {
     /// The value of the product for a determined component.
     fn value(
         &self,
-        row: &Row,
-        instant: &Instant,
-        (form, own): (&Form, &OnRun),
+        judge: &dyn Judge,
+        state: &(&Row, Instant, Vec<Form>),
+        k: usize,
         findings: &mut Findings,
     ) {
+        let (row, instant, forms) = state;
+        let form = &forms[k];
         let Some(reaction) = row.reactions.get(form.group) else {
             return;
         };
@@ -91,8 +95,7 @@ impl Examined<'_> {
             form.of(self.mechanism, reaction),
             instant.scaled(form).dot(instant.least()),
         );
-        let permitted = AT_STATE * reference(own, &[right], instant.load);
-        if !found.is_nan() && (found - right).abs() > permitted.max(AT_STATE * LOAD) {
+        if !found.is_nan() && self.differ(judge, state, (k, &[found, right]), AT_STATE) {
             let text = format!(
                 "`{}` at t = {} s: {found:?} N, right {right:?} N, load {:.3e} N, σ {:.1e}",
                 self.name(form),
