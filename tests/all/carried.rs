@@ -86,9 +86,9 @@ fn many_dependencies_are_read_from_few_combinations() {
     }
 }
 
-/// A sweep reads verdicts at fewer rows of output, and a reaction that is a matter of choice once
-/// in a stretch. On each stretch it has the verdicts of a run that reads all of them: in scenes
-/// that turn, that pass singular configurations, and whose drives have breaks.
+/// A sweep reads verdicts at the ends of each stretch alone, and has the verdicts of a run that
+/// reads them at all steps and rows: in scenes that turn, that pass singular configurations, and
+/// whose drives have breaks.
 #[test]
 fn verdicts_on_stretches_do_not_depend_on_instants() {
     let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");
@@ -106,7 +106,7 @@ fn verdicts_on_stretches_do_not_depend_on_instants() {
         let study = Study::read(name, &text, &registry, &Overrides::default());
         let study = study.unwrap_or_else(|e| panic!("{name}: {e}"));
         let options = study.options.clone().expect("an end");
-        let [all, few] = [Verdicts::WithInstants, Verdicts::Stretches].map(|verdicts| {
+        let [all, few] = [Verdicts::WithInstants, Verdicts::OfRun].map(|verdicts| {
             let wanted = Wanted {
                 verdicts,
                 ..Wanted::default()

@@ -49,10 +49,12 @@ pub struct Wanted {
 pub enum Verdicts {
     /// Those on stretches, and the instants that differ: read at accepted steps and rows of output.
     WithInstants,
-    /// Those on stretches alone: read at accepted steps, and at the first, second, fourth, eighth …
-    /// row of output after each event. A reaction that is a matter of choice is not read again in
-    /// the same stretch.
-    Stretches,
+    /// Those on the whole run: read at the start, in each stretch at the end of its first accepted
+    /// step and at the begin of its last, and at the second, fourth, eighth … step if one is open.
+    /// More instants can only add such as differ: between events a component is determined
+    /// throughout or, but for isolated instants, nowhere. A reaction is not computed any more where
+    /// neither its force nor its torque is determined in a stretch.
+    OfRun,
     /// No verdicts.
     None,
 }

@@ -1,7 +1,7 @@
 //! The largest values of reactions over a run, of determined cells only. Which cells these are is
 //! known when the run has ended; so a peak is kept for each interval between cuts.
 
-use solvability::Stretches;
+use solvability::{Stretches, Value};
 
 use crate::tables::ReactionColumn;
 
@@ -9,7 +9,7 @@ use crate::tables::ReactionColumn;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Peak {
     /// The value, with its sign (N, N·m).
-    pub value: f64,
+    pub value: Value,
     /// The first time at which it occurs (s).
     pub time: f64,
     /// The intervals on which the number is determined (s).
@@ -72,20 +72,23 @@ impl PeakRecorder {
     pub fn finish(&self, columns: &[ReactionColumn], stretches: &Stretches) -> Vec<Option<Peak>> {
         let of = |(column, peaks): (&ReactionColumn, &Vec<[f64; 2]>)| {
             let track = column.quantity.verdicts(stretches);
-            let is_determined = |t: f64| track.is_none_or(|track| track.at(t).is_unique());
-            let known = peaks
-                .iter()
-                .filter(|[value, t]| value.is_finite() && is_determined(*t));
+            let value = |number: f64, t: f64| {
+                track.map_or_else(|| Value::unique(number), |track| track.value(t, number))
+            };
+            let determined = |&[number, t]: &[f64; 2]| {
+                let number = value(number, t).determined();
+                Some([number.filter(|number| number.is_finite())?, t])
+            };
             // The first of equals.
-            let largest = known.copied().reduce(|best, peak| {
+            let largest = peaks.iter().filter_map(determined).reduce(|best, peak| {
                 if peak[0].abs() > best[0].abs() {
                     peak
                 } else {
                     best
                 }
             });
-            largest.map(|[value, time]| Peak {
-                value,
+            largest.map(|[number, time]| Peak {
+                value: value(number, time),
                 time,
                 over: track.map_or_else(|| vec![stretches.extent], |track| track.determined()),
             })
@@ -134,7 +137,7 @@ mod tests {
         };
         let found = peaks.finish(&[column], &stretches);
         let peak = Peak {
-            value: -5.0,
+            value: Value::unique(-5.0),
             time: 0.5,
             over: vec![[0.0, 1.0]],
         };

@@ -57,7 +57,13 @@ impl<'a> Rows<'a> {
         )
     }
 
-    fn at(mechanism: &'a Mechanism, scratch: Cow<'a, Scratch>, q: &'a [f64], known: Known) -> Self {
+    /// C at the pose of the scratch, in `f64`, for coordinates q that are known like this.
+    pub(crate) fn at(
+        mechanism: &'a Mechanism,
+        scratch: Cow<'a, Scratch>,
+        q: &'a [f64],
+        known: Known,
+    ) -> Self {
         let size = scene_size(mechanism, q);
         let uncertain = UncertainMatrix::new(mechanism, &scratch, size, known);
         Self::of_uncertain(mechanism, (scratch, q, size), uncertain)

@@ -20,6 +20,7 @@ mod tests;
 
 use model::ConstraintId;
 
+use crate::value::Value;
 use crate::verdict::Verdict;
 
 pub use carried::{CarriedState, CarriedVerdicts};
@@ -124,6 +125,12 @@ impl VerdictTrack {
         &self.stretches[begun.max(1) - 1].verdict
     }
 
+    /// A number of a solution at a time with the verdict on the stretch that contains it.
+    #[must_use]
+    pub fn value(&self, t: f64, number: f64) -> Value {
+        Value::new(number, self.at(t).clone(), None)
+    }
+
     /// The verdict on the run: unique if it is on all stretches, not unique if it is not on one.
     #[must_use]
     pub fn of_run(&self) -> &Verdict {
@@ -223,12 +230,24 @@ impl ReactionStretches {
             .map(|(_, track)| track)
     }
 
-    /// Whether a component is determined on the stretch that contains the time. One that is zero
-    /// under any load is.
+    /// A component of a solution at a time with the verdict on the stretch that contains it. One
+    /// that is zero under any load is unique.
+    ///
+    /// ```
+    /// use solvability::{ReactionStretches, Verdict, VerdictTrack};
+    /// let track = VerdictTrack::constant([0.0, 2.0], Verdict::NotUnique);
+    /// let hinge = ReactionStretches {
+    ///     id: model::ConstraintId(0),
+    ///     whole: track.clone(),
+    ///     components: vec![("Fx", track)],
+    /// };
+    /// assert_eq!(hinge.value("Fx", 1.0, 3.5).determined(), None);
+    /// assert_eq!(hinge.value("T", 1.0, 0.0).determined(), Some(0.0));
+    /// ```
     #[must_use]
-    pub fn determines(&self, component: &str, t: f64) -> bool {
-        self.component(component)
-            .is_none_or(|track| track.at(t).is_unique())
+    pub fn value(&self, component: &str, t: f64, number: f64) -> Value {
+        let track = self.component(component);
+        track.map_or_else(|| Value::unique(number), |track| track.value(t, number))
     }
 }
 

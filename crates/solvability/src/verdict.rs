@@ -38,7 +38,8 @@ impl Verdict {
     }
 
     /// The verdict that leaves more open.
-    pub(crate) fn worse(self, other: Self) -> Self {
+    #[must_use]
+    pub fn worse(self, other: Self) -> Self {
         if other.severity() > self.severity() {
             other
         } else {

@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use integrators::{Delicate, Implicit, IntegrationError, Ode, StepEnd, StepInfo, Tolerance};
-use model::{Mechanism, System};
+use model::{ConstraintId, Mechanism, System};
 use solvability::{CarriedChoices, Group, Looked, NamedChoice, Stretches};
 
 use super::by_time::ByTime;
@@ -326,6 +326,9 @@ impl<'m> RunEquations<'m> {
         }
         let (q, _) = self.motion.parts(y);
         let looked = verdicts.look(&mut self.motion, (t, t_before, q), false, Looked::Ahead);
+        let not_of_run = verdicts.not_of_run();
+        let wanted = &mut self.wanted.reactions;
+        wanted.retain(|k| !not_of_run.contains(&ConstraintId(*k)));
         self.verdicts = Some(verdicts);
         looked
     }
@@ -333,6 +336,12 @@ impl<'m> RunEquations<'m> {
     /// Whether verdicts are read on the way.
     pub(super) fn reads_verdicts(&self) -> bool {
         self.verdicts.as_ref().is_some_and(RunVerdicts::may_change)
+    }
+
+    /// Whether verdicts are read at the end of the accepted step.
+    pub(super) fn reads_verdicts_at_step(&self) -> bool {
+        let verdicts = self.verdicts.as_ref();
+        verdicts.is_some_and(RunVerdicts::are_wanted_at_step)
     }
 
     /// Number of events so far.

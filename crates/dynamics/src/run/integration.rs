@@ -170,7 +170,7 @@ impl<'r, 'm> Run<'r, 'm> {
     }
 }
 
-/// Reads the verdicts at the end of an accepted step and between its events, which are those from
+/// Reads the verdicts at an accepted step: at its ends and between its events, which are those from
 /// `first_event` on.
 fn judge_ahead(
     step: &mut integrators::Step<'_, RunEquations<'_>>,
@@ -180,15 +180,19 @@ fn judge_ahead(
         return Ok(());
     }
     let times = [step.t0(), step.t1()];
-    let mut y = step.y1().to_vec();
     for t in step.ode().cut_verdicts(times, first_event) {
-        // Times between events lie within the step.
-        if step.interpolate_accurately(t, &mut y).is_ok() {
-            step.ode().judge_ahead(t, &mut y, false)?;
+        let mut y = step.y0().to_vec();
+        // Times after the begin lie within the step.
+        let is_begin = t == times[0];
+        if is_begin || step.interpolate_accurately(t, &mut y).is_ok() {
+            step.ode().judge_ahead(t, &mut y, is_begin)?;
         }
     }
-    y.copy_from_slice(step.y1());
-    step.ode().judge_ahead(times[1], &mut y, true)
+    if step.ode().reads_verdicts_at_step() {
+        let mut y = step.y1().to_vec();
+        step.ode().judge_ahead(times[1], &mut y, true)?;
+    }
+    Ok(())
 }
 
 /// Shows a row; a fault ends the run.

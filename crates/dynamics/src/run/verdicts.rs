@@ -25,8 +25,10 @@ pub(super) struct RunVerdicts<'m> {
     /// The last event, break or begin (s).
     last_cut: f64,
     wanted: Verdicts,
-    /// Number of rows of output since the last step with an event or a break.
-    rows: usize,
+    /// Number of steps.
+    steps: usize,
+    /// Whether the end of the last step is the first of a stretch.
+    ends_first: bool,
 }
 
 impl<'m> RunVerdicts<'m> {
@@ -41,7 +43,7 @@ impl<'m> RunVerdicts<'m> {
         let dropped = &prepared.decision.dropped;
         let start = (0.0, prepared.q.as_slice());
         let mut carried = CarriedVerdicts::new(mechanism, start, dropped, options.rtol, groups);
-        if let (Some(carried), Verdicts::Stretches) = (&mut carried, wanted) {
+        if let (Some(carried), Verdicts::OfRun) = (&mut carried, wanted) {
             carried.leave_out_instants();
         }
         Self {
@@ -50,7 +52,8 @@ impl<'m> RunVerdicts<'m> {
             dropped: Vec::new(),
             last_cut: 0.0,
             wanted,
-            rows: 0,
+            steps: 0,
+            ends_first: false,
         }
     }
 
@@ -59,7 +62,8 @@ impl<'m> RunVerdicts<'m> {
         self.carried.is_some()
     }
 
-    /// Reads the verdicts at a row of output, and takes note of its rows without multiplier.
+    /// Reads the verdicts at a row of output if instants that differ are wanted, and at the start.
+    /// Takes note of its rows without multiplier.
     pub(super) fn look_at_row(
         &mut self,
         motion: &mut KeptRowMotion<'_>,
@@ -67,11 +71,8 @@ impl<'m> RunVerdicts<'m> {
         is_factored: bool,
     ) -> Result<(), MotionFault> {
         self.note_row(motion, state.0);
-        if self.wanted == Verdicts::Stretches && state.0 > 0.0 {
-            self.rows += 1;
-            if !self.rows.is_power_of_two() {
-                return Ok(());
-            }
+        if self.wanted == Verdicts::OfRun && state.0 > 0.0 {
+            return Ok(());
         }
         self.look(motion, state, is_factored, Looked::Next)
     }
@@ -169,30 +170,58 @@ impl<'m> RunVerdicts<'m> {
         }
     }
 
+    /// The joints and drives that have neither a force nor a torque that is determined on the run,
+    /// whatever comes, if only this is asked. The last look was inside a stretch.
+    pub(super) fn not_of_run(&self) -> Vec<ConstraintId> {
+        let asked = self
+            .carried
+            .as_ref()
+            .filter(|_| self.wanted == Verdicts::OfRun);
+        asked.map_or_else(Vec::new, CarriedVerdicts::without_determined)
+    }
+
+    /// Whether the verdicts are to be read at the end of a step.
+    pub(super) fn are_wanted_at_step(&self) -> bool {
+        self.carried.as_ref().is_some_and(|carried| {
+            self.wanted == Verdicts::WithInstants
+                || self.ends_first
+                || self.steps.is_power_of_two() && carried.has_open()
+        })
+    }
+
     /// Begins stretches at events within a step, given in the order of time, and after it if
-    /// `ends_there`. Returns times between two cuts between which nothing else is looked at.
+    /// `ends_there`. Returns times at which to look before its end: between two cuts between which
+    /// nothing else is looked at, and the begin of the last step of a stretch.
     pub(super) fn cut(&mut self, events: &[f64], [t0, t1]: [f64; 2], ends_there: bool) -> Vec<f64> {
         let Some(carried) = &mut self.carried else {
             return Vec::new();
         };
+        let begins = self.last_cut >= t0;
+        let is_cut = !events.is_empty() || ends_there;
+        self.steps += 1;
+        self.ends_first = !ends_there && (begins || is_cut);
+        if !is_cut {
+            return Vec::new();
+        }
+        let mut looks = Vec::new();
         let mut cuts = Vec::new();
-        if self.last_cut >= t0 && carried.is_blank_since(self.last_cut) {
+        if begins && carried.is_blank_since(self.last_cut) {
             cuts.push(self.last_cut);
+        } else if !begins && self.wanted == Verdicts::OfRun {
+            looks.push(t0);
         }
         cuts.extend(events);
         if ends_there {
             cuts.push(t1);
         }
         cuts.dedup();
-        if !events.is_empty() || ends_there {
-            self.rows = 0;
-        }
         events.iter().for_each(|&t| carried.cut(t));
         if let Some(&last) = cuts.last() {
             self.last_cut = self.last_cut.max(last);
         }
         let between = cuts.windows(2).filter(|pair| pair[0] < pair[1]);
-        between.map(|pair| 0.5 * (pair[0] + pair[1])).collect()
+        looks.extend(between.map(|pair| 0.5 * (pair[0] + pair[1])));
+        looks
     }
 
     /// The verdicts up to the end, and the rows without multiplier.

@@ -1,6 +1,6 @@
 //! One run of a sweep: the scene with its numbers, moved and recorded.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use dynamics::plan::{Reactions, Rows, Verdicts};
@@ -9,11 +9,11 @@ use dynamics::{
     Wanted,
 };
 use model::space::norm;
-use model::{Mechanism, System};
+use model::{Mechanism, Reaction, System};
 use report::sweep::{Extreme, SweepMotion};
 use scene_codegen::Tape;
 use solvability::analysis::analyse_decided;
-use solvability::{Analysis, ReactionStretches, Stretches};
+use solvability::{Analysis, ReactionStretches, Stretches, Value, Verdict};
 
 use crate::error::StudyError;
 use crate::study::Study;
@@ -103,7 +103,7 @@ impl Begun {
             groups: Vec::new(),
             choices: Vec::new(),
             // A row of a sweep has no instants.
-            verdicts: Verdicts::Stretches,
+            verdicts: Verdicts::OfRun,
         };
         let row = |sample: &mut Sample<'_, '_>| {
             watch.see(sample)?;
@@ -142,7 +142,30 @@ struct Watch<'s> {
     last: Option<(Vec<f64>, Vec<f64>)>,
     /// The requested reactions; `None` for one that this run does not have.
     reactions: &'s [Option<usize>],
-    extremes: Vec<Extreme>,
+    /// Of force and torque of each.
+    largest: Vec<[Largest; 2]>,
+}
+
+/// The largest number, and the first time at which it occurs (s); NaN if there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Largest {
+    number: f64,
+    time: f64,
+}
+
+impl Largest {
+    const NONE: Self = Self {
+        number: f64::NAN,
+        time: f64::NAN,
+    };
+
+    /// Takes a number at a time into account; NaN is ignored.
+    fn include(&mut self, time: f64, number: f64) {
+        // A comparison with NaN is false, so the first number is always taken.
+        if number > self.number || self.number.is_nan() && !number.is_nan() {
+            *self = Self { number, time };
+        }
+    }
 }
 
 impl<'s> Watch<'s> {
@@ -152,7 +175,7 @@ impl<'s> Watch<'s> {
             t_state: f64::NAN,
             last: None,
             reactions: &begun.reactions,
-            extremes: vec![Extreme::UNKNOWN; begun.reactions.len()],
+            largest: vec![[Largest::NONE; 2]; begun.reactions.len()],
         }
     }
 
@@ -181,10 +204,12 @@ impl<'s> Watch<'s> {
         }
         let all = sample.reactions()?;
         let all = all.as_chosen();
-        for (k, extreme) in self.reactions.iter().zip(&mut self.extremes) {
-            if let Some(reaction) = k.and_then(|k| all.get(k)) {
-                let force = norm(&reaction.force);
-                extreme.include(sample.t, force, norm(&reaction.torque));
+        for (k, [force, torque]) in self.reactions.iter().zip(&mut self.largest) {
+            // Reactions that are not determined on the run are left out.
+            let known = |r: &&Reaction| r.force.iter().chain(&r.torque).all(|x| !x.is_nan());
+            if let Some(reaction) = k.and_then(|k| all.get(k)).filter(known) {
+                force.include(sample.t, norm(&reaction.force));
+                torque.include(sample.t, norm(&reaction.torque));
             }
         }
         Ok(())
@@ -204,21 +229,26 @@ impl<'s> Watch<'s> {
         }
     }
 
-    /// The extremes of what is unique on the whole run: another number depends on a choice.
-    fn determined(&self, verdicts: Option<&Stretches>) -> Vec<Extreme> {
+    /// The extremes with their verdicts on the whole run.
+    fn extremes(&self, verdicts: Option<&Stretches>) -> Vec<Option<[Extreme; 2]>> {
         let space = self.mechanism().space();
-        let each = self.reactions.iter().zip(&self.extremes);
-        let of = |(place, extreme): (&Option<usize>, &Extreme)| {
-            let found = place.and_then(|k| verdicts?.reactions.get(k))?;
-            let is_unique = |components: std::ops::Range<usize>| {
+        let of = |place: Option<usize>, [force, torque]: [Largest; 2]| {
+            let found = verdicts?.reactions.get(place?)?;
+            let extreme = |components: Range<usize>, Largest { number, time }| {
                 let names = space.components()[components].iter();
-                let mut tracks = names.filter_map(|name| found.component(name));
-                tracks.all(|track| track.of_run().is_unique())
+                let tracks = names.filter_map(|name| found.component(name));
+                let verdicts = tracks.map(|track| track.of_run().clone());
+                let verdict = verdicts.fold(Verdict::Unique, Verdict::worse);
+                Extreme {
+                    value: Value::new(number, verdict, None),
+                    time,
+                }
             };
-            Some(extreme.only([is_unique(space.forces()), is_unique(space.torques())]))
+            let force = extreme(space.forces(), force);
+            Some([force, extreme(space.torques(), torque)])
         };
-        each.map(|one| of(one).unwrap_or(Extreme::UNKNOWN))
-            .collect()
+        let each = self.reactions.iter().zip(&self.largest);
+        each.map(|(place, largest)| of(*place, *largest)).collect()
     }
 
     fn motion(self, summary: &Summary) -> SweepMotion {
@@ -252,7 +282,27 @@ impl<'s> Watch<'s> {
             fragile: *fragile,
             t_state: self.t_state,
             state: self.state(),
-            extremes: self.determined(verdicts),
+            extremes: self.extremes(verdicts),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_is_the_first_of_equals() {
+        let mut largest = Largest::NONE;
+        for (t, number) in [(0.0, f64::NAN), (1.0, 0.0), (2.0, 3.0), (3.0, 3.0)] {
+            largest.include(t, number);
+        }
+        let first = Largest {
+            number: 3.0,
+            time: 2.0,
+        };
+        assert_eq!(largest, first);
+        largest.include(4.0, f64::NAN);
+        assert_eq!(largest, first);
     }
 }

@@ -78,9 +78,8 @@ impl MomentDocument {
         for (id, (_, numbers)) in ids.zip(&mut self.reactions.0) {
             let own = &stretches.reactions[id.0];
             for (name, number) in &mut numbers.0 {
-                if !own.determines(name, self.t) {
-                    *number = f64::NAN;
-                }
+                let value = own.value(name, self.t, *number);
+                *number = value.determined().unwrap_or(f64::NAN);
             }
         }
     }

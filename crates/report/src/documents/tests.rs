@@ -396,7 +396,7 @@ fn summary_has_the_keys_of_the_contract() {
     let columns = columns_of_reactions(&prepared.mechanism, &Selection::All, &[], |_| false);
     let columns = columns.expect("it exists");
     let peak = Peak {
-        value: -3.5,
+        value: solvability::Value::unique(-3.5),
         time: 0.25,
         over: vec![[0.0, 2.0]],
     };

@@ -162,7 +162,7 @@ impl RunVerdicts<'_> {
     fn peak(&self, quantity: Quantity, known: Option<&Sensitivity>) -> Option<PeakDocument> {
         let k = self.columns.iter().position(|c| c.quantity == quantity)?;
         let peak = self.peaks.get(k)?.as_ref()?;
-        let mut value = Value::unique(peak.value);
+        let mut value = peak.value.clone();
         value.add_sensitivity(known.cloned());
         Some(PeakDocument {
             value,

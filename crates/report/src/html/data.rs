@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use model::{ConstraintId, Mechanism, SpaceKind, System};
 use serde::Serialize;
+use solvability::Value;
 
 use super::comparison::{Comparison, Freedom};
 use super::curves::{Curves, largest};
@@ -277,16 +278,10 @@ fn reaction(page: &RunPage<'_>, id: ConstraintId, noise: f64) -> Option<Reaction
     if !frames.iter().all(|f| f.reactions.len() > id.0) {
         return None;
     }
-    let is_determined = |name: &str, t: f64| {
-        let own = page.stretches.and_then(|s| s.reactions.get(id.0));
-        own.is_none_or(|own| own.determines(name, t))
-    };
-    let determined = |name: &'static str, value: f64, t: f64| {
-        if is_determined(name, t) {
-            value
-        } else {
-            f64::NAN
-        }
+    let own = page.stretches.and_then(|s| s.reactions.get(id.0));
+    let determined = |name: &'static str, number: f64, t: f64| {
+        let value = own.map_or_else(|| Value::unique(number), |own| own.value(name, t, number));
+        value.determined().unwrap_or(f64::NAN)
     };
     let all = frames.iter();
     let wrenches: Vec<Vec<f64>> = all

@@ -1,5 +1,7 @@
 //! One run of a sweep as a row, and the columns of all rows.
 
+use solvability::Value;
+
 use super::{Cell, Column, Kind, SweepPlan};
 
 /// How a run ended.
@@ -28,52 +30,22 @@ impl SweepStatus {
     }
 }
 
-/// Largest |F| and |T| of a joint or drive over the written rows of a run, each with the first time
-/// at which it occurs (s). NaN if a component of the force or of the torque is not unique on the
-/// whole run: such a number would depend on a choice.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Largest |F| or |T| of a joint or drive over the written rows of a run.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
-    /// Largest |F| (N).
-    pub force: f64,
-    /// Time of this value (s).
-    pub force_time: f64,
-    /// Largest |T| (N·m).
-    pub torque: f64,
-    /// Time of this value (s).
-    pub torque_time: f64,
+    /// The value with its verdict on the whole run (N or N·m): unique if all components of the
+    /// force, or of the torque, are.
+    pub value: Value,
+    /// The first time at which it occurs (s).
+    pub time: f64,
 }
 
 impl Extreme {
-    /// Not known.
-    pub const UNKNOWN: Self = Self {
-        force: f64::NAN,
-        force_time: f64::NAN,
-        torque: f64::NAN,
-        torque_time: f64::NAN,
-    };
-
-    /// The same without the force, or without the torque, if they are not determined.
+    /// The value and its time in a table; NaN if it is not determined.
     #[must_use]
-    pub fn only(self, [force, torque]: [bool; 2]) -> Self {
-        let mut kept = Self::UNKNOWN;
-        if force {
-            (kept.force, kept.force_time) = (self.force, self.force_time);
-        }
-        if torque {
-            (kept.torque, kept.torque_time) = (self.torque, self.torque_time);
-        }
-        kept
-    }
-
-    /// Takes a value at a time into account; NaN is ignored.
-    pub fn include(&mut self, t: f64, force: f64, torque: f64) {
-        // A comparison with NaN is false, so the first value is always taken.
-        if force > self.force || self.force.is_nan() && !force.is_nan() {
-            (self.force, self.force_time) = (force, t);
-        }
-        if torque > self.torque || self.torque.is_nan() && !torque.is_nan() {
-            (self.torque, self.torque_time) = (torque, t);
-        }
+    pub fn cells(&self) -> [f64; 2] {
+        let value = self.value.determined();
+        value.map_or([f64::NAN; 2], |value| [value, self.time])
     }
 }
 
@@ -120,8 +92,9 @@ pub struct SweepMotion {
     /// The last written state, body by body in the order of [`SweepPlan::state`]; NaN if no row was
     /// written.
     pub state: Vec<f64>,
-    /// Extremes of the joints and drives of [`SweepPlan::reactions`].
-    pub extremes: Vec<Extreme>,
+    /// Extremes of force and torque of the joints and drives of [`SweepPlan::reactions`]; `None`
+    /// for one that has no reactions.
+    pub extremes: Vec<Option<[Extreme; 2]>>,
 }
 
 /// A run.
@@ -209,8 +182,13 @@ impl SweepPlan {
         match motion {
             Some(m) => {
                 cells.extend(m.state.iter().copied().map(Cell::Number));
-                let values = |e: &Extreme| [e.force, e.force_time, e.torque, e.torque_time];
-                cells.extend(m.extremes.iter().flat_map(values).map(Cell::Number));
+                for extremes in &m.extremes {
+                    let values = extremes
+                        .as_ref()
+                        .map(|of| of.each_ref().map(Extreme::cells));
+                    let values = values.unwrap_or([[f64::NAN; 2]; 2]);
+                    cells.extend(values.into_iter().flatten().map(Cell::Number));
+                }
             }
             None => {
                 let states = self.state.len() * self.bodies.len();

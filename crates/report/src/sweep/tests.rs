@@ -3,10 +3,12 @@
 use std::fs;
 use std::path::PathBuf;
 
+use solvability::{Value, Verdict};
+
 use super::line::line;
 use super::{
-    Extent, Extreme, JournalError, Records, Runs, Shards, SweepDocument, SweepMotion, SweepPlan,
-    SweepRow, SweepStatus, digest, write_sweep,
+    Cell, Extent, Extreme, JournalError, Records, Runs, Shards, SweepDocument, SweepMotion,
+    SweepPlan, SweepRow, SweepStatus, digest, write_sweep,
 };
 use crate::files::process::Process;
 use crate::files::{FileError, OutputDirectory};
@@ -108,7 +110,7 @@ fn row(run: u64) -> SweepRow {
             fragile: 0,
             t_state: 1.0,
             state: vec![0.1 + 0.2, -1e300, x, 1.0 / x, f64::NAN, f64::INFINITY],
-            extremes: vec![Extreme::UNKNOWN],
+            extremes: vec![None],
         }),
     }
 }
@@ -566,19 +568,25 @@ fn gaps_are_told_as_runs() {
     assert_eq!(text["shard"], serde_json::json!([3, 3]));
 }
 
+/// Where the verdict allows no number, there is no time of it either.
 #[test]
-fn extremes_are_the_first_largest_values() {
-    let mut extreme = Extreme::UNKNOWN;
-    for (t, force, torque) in [
-        (0.0, f64::NAN, 0.0),
-        (1.0, 0.0, 0.0),
-        (2.0, 3.0, f64::NAN),
-        (3.0, 3.0, 0.5),
-    ] {
-        extreme.include(t, force, torque);
-    }
-    assert_eq!((extreme.force, extreme.force_time), (3.0, 2.0));
-    assert_eq!((extreme.torque, extreme.torque_time), (0.5, 3.0));
+fn cells_of_extremes_are_determined() {
+    let plan = plan();
+    let extreme = |value| Extreme { value, time: 0.5 };
+    let mut row = row(1);
+    let motion = row.motion.as_mut().expect("it began");
+    let open = Value::new(3.0, Verdict::NotUnique, None);
+    motion.extremes = vec![Some([extreme(Value::unique(2.0)), extreme(open)])];
+    let cells = plan.cells(&row);
+    let last: Vec<f64> = cells[cells.len() - 4..]
+        .iter()
+        .map(|cell| match cell {
+            Cell::Number(x) => *x,
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(last[..2], [2.0, 0.5]);
+    assert!(last[2..].iter().all(|x| x.is_nan()), "{last:?}");
 }
 
 #[test]

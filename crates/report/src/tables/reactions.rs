@@ -79,13 +79,6 @@ impl Quantity {
             }
         }
     }
-
-    /// Whether it is determined on the stretch that contains the time.
-    #[must_use]
-    pub fn is_determined(&self, stretches: &Stretches, t: f64) -> bool {
-        self.verdicts(stretches)
-            .is_none_or(|track| track.at(t).is_unique())
-    }
 }
 
 /// A column of reactions.

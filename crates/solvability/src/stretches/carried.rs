@@ -31,11 +31,13 @@ pub struct CarriedVerdicts<'m> {
     /// Length that makes C dimensionless (m).
     size: f64,
     accuracy: Known,
+    /// The same at the start, which is stored.
+    at_start: Known,
     parts: Vec<OpenPart<'m>>,
     groups: Vec<Group>,
+    /// What is judged.
+    numbers: Vec<Number>,
     recorder: VerdictRecorder,
-    /// Times at which stretches begin (s), ascending, if instants that differ are left out.
-    ends: Option<Vec<f64>>,
 }
 
 /// A basis of the left null space for rows of a part.
@@ -53,9 +55,6 @@ struct OpenPart<'m> {
     known: Option<Accuracy>,
     /// Number of states since the last cut at which these vectors left a number open.
     open: usize,
-    /// By joint or drive, the stretch in which none of its numbers is determined, if instants that
-    /// differ are left out.
-    free: Vec<Option<usize>>,
 }
 
 /// Accuracy of vectors of a left null space.
@@ -77,7 +76,7 @@ pub struct CarriedState<'s> {
     /// Φ and C have been evaluated here.
     pub scratch: &'s Scratch,
     /// Dependencies of the rows of C, `Cᵀ·z = 0`, over all rows in SI units: of each dropped row,
-    /// or of [`crate::CARRIED_VECTORS`] sums of them with random signs.
+    /// or of [`crate::CARRIED_VECTORS`] sums of them with random weights.
     pub dependencies: &'s [Vec<f64>],
 }
 
@@ -105,37 +104,27 @@ impl<'m> CarriedVerdicts<'m> {
             redundancy,
             known: None,
             open: 0,
-            free: Vec::new(),
         });
         let parts = parts.collect();
         let mut carried = Self {
             mechanism,
             size: model::start::scene_size(mechanism, q),
             accuracy: Known::To(rtol),
+            at_start: Known::AsStored,
             parts,
             groups: groups.to_vec(),
+            numbers: Vec::new(),
             recorder: VerdictRecorder::new(0),
-            ends: None,
         };
-        carried.recorder = VerdictRecorder::new(carried.numbers().len());
+        carried.numbers = carried.all_numbers();
+        carried.recorder = VerdictRecorder::new(carried.numbers.len());
         Some(carried)
     }
 
-    /// Leaves out instants that differ from their stretch: a joint or drive without a determined
-    /// number is not read again in that stretch.
+    /// Leaves out instants that differ from their stretch, such as the start: what is read there is
+    /// read with the accuracy of the motion, and serves the next instants.
     pub fn leave_out_instants(&mut self) {
-        self.ends = Some(self.mechanism.layout().break_times.clone());
-        for part in &mut self.parts {
-            part.free = vec![None; part.mechanism.layout().groups.len()];
-        }
-    }
-
-    /// The number of the stretch that has this time inside, if instants that differ are left out.
-    fn stretch(&self, t: f64) -> Option<usize> {
-        let ends = self.ends.as_ref()?;
-        let begun = ends.partition_point(|end| *end <= t);
-        let is_inside = t > 0.0 && begun.checked_sub(1).is_none_or(|k| ends[k] < t);
-        is_inside.then_some(begun)
+        self.at_start = self.accuracy;
     }
 
     /// Takes the verdicts at a state. Where C cannot be analysed they are undecided, with the
@@ -146,6 +135,38 @@ impl<'m> CarriedVerdicts<'m> {
             vec![Some(Verdict::Undecided { reason }); self.recorder.numbers()]
         });
         self.recorder.see(at.t, looked, verdicts);
+    }
+
+    /// The joints and drives with neither a determined force nor a determined torque at the last
+    /// state, apart from such as are zero under any load.
+    #[must_use]
+    pub fn without_determined(&self) -> Vec<ConstraintId> {
+        let layout = self.mechanism.layout();
+        let (space, joints) = (layout.space, layout.groups.len());
+        // By joint, whether its force and its torque are free.
+        let mut free: Vec<[Option<bool>; 2]> = vec![[None; 2]; joints];
+        for (k, number) in self.numbers.iter().enumerate() {
+            if let Number::Component(id, name) = number
+                && let Some(place) = space.component(name)
+            {
+                let is_free = self.recorder.latest(k) == Some(&Verdict::NotUnique);
+                let vector = &mut free[id.0][usize::from(space.torques().contains(&place))];
+                *vector = Some(is_free || *vector == Some(true));
+            }
+        }
+        let is_open = |id: &ConstraintId| {
+            let of = &free[id.0];
+            of.contains(&Some(true)) && !of.contains(&Some(false))
+        };
+        layout.constraint_ids().filter(is_open).collect()
+    }
+
+    /// Whether a verdict was left open at the last state.
+    #[must_use]
+    pub fn has_open(&self) -> bool {
+        let mut all = 0..self.numbers.len();
+        let is_decided = |k| self.recorder.latest(k).is_some_and(Verdict::is_decided);
+        !all.all(is_decided)
     }
 
     /// Takes note of a state that says nothing of others: the rank drops there.
@@ -170,8 +191,8 @@ impl<'m> CarriedVerdicts<'m> {
             }
             None => vec![None; self.recorder.numbers()],
         };
-        let pairs = self.numbers().into_iter().zip(verdicts);
-        let component = |(number, verdict): (Number, Option<Verdict>)| match number {
+        let pairs = self.numbers.iter().zip(verdicts);
+        let component = |(number, verdict): (&Number, Option<Verdict>)| match *number {
             Number::Component(id, name) => {
                 let open = || Verdict::Undecided {
                     reason: lower.to_owned(),
@@ -187,17 +208,12 @@ impl<'m> CarriedVerdicts<'m> {
         let mut verdicts = Vec::with_capacity(self.recorder.numbers());
         let forms = self.forms(at)?;
         let known = if at.t == 0.0 {
-            Known::AsStored
+            self.at_start
         } else {
             self.accuracy
         };
-        let stretch = self.stretch(at.t);
         for part in &mut self.parts {
-            let own = part.verdicts(self.mechanism, at, (known, stretch), &forms)?;
-            if let Some(stretch) = stretch {
-                part.note_free(&own, stretch);
-            }
-            verdicts.extend(own);
+            verdicts.extend(part.verdicts(self.mechanism, at, known, &forms)?);
         }
         Ok(verdicts)
     }
@@ -205,9 +221,6 @@ impl<'m> CarriedVerdicts<'m> {
     /// Begins another stretch.
     pub fn cut(&mut self, t: f64) {
         self.parts.iter_mut().for_each(|part| part.open = 0);
-        if let Some(ends) = &mut self.ends {
-            ends.insert(ends.partition_point(|end| *end <= t), t);
-        }
         self.recorder.cut(t);
     }
 
@@ -234,7 +247,7 @@ impl<'m> CarriedVerdicts<'m> {
     }
 
     /// The numbers that are judged, part by part: components of its joints, then those of groups.
-    fn numbers(&self) -> Vec<Number> {
+    fn all_numbers(&self) -> Vec<Number> {
         let layout = self.mechanism.layout();
         let mut numbers = Vec::new();
         for part in &self.parts {
@@ -254,9 +267,8 @@ impl<'m> CarriedVerdicts<'m> {
     /// The verdicts from begin to end.
     #[must_use]
     pub fn finish(self, extent: [f64; 2]) -> Stretches {
-        let numbers = self.numbers();
         let mut stretches = Stretches::unique(self.mechanism, extent, &self.groups);
-        for (number, track) in numbers.into_iter().zip(self.recorder.finish(extent)) {
+        for (number, track) in self.numbers.into_iter().zip(self.recorder.finish(extent)) {
             match number {
                 Number::Component(id, name) => {
                     let own = &mut stretches.reactions[id.0].components;
@@ -289,18 +301,13 @@ impl OpenPart<'_> {
         &mut self,
         whole: &Mechanism,
         at: &CarriedState<'_>,
-        (known, stretch): (Known, Option<usize>),
+        known: Known,
         forms: &[LinearForm],
     ) -> Result<Verdicts, AnalysisError> {
         let of_motion = known != Known::AsStored;
         if of_motion && let Some(accuracy) = &self.known {
             let basis = self.carried_basis(whole, at, accuracy);
-            let is_free = |own: usize| {
-                let free = self.free.get(own).copied().flatten();
-                free.is_some() && free == stretch
-            };
-            let basis = |_: &[usize]| Cow::Borrowed(&basis);
-            let found = self.judged(whole, at, forms, (&basis, &is_free));
+            let found = self.judged(whole, at, forms, &|_| Cow::Borrowed(&basis));
             let found = found.map_err(|source| AnalysisError::Query { time: at.t, source })?;
             if found.iter().all(Verdict::is_decided) {
                 return Ok(found.into_iter().map(Some).collect());
@@ -327,7 +334,13 @@ impl OpenPart<'_> {
         let q = self.extent.coordinates(at.q);
         let query = |source| AnalysisError::Query { time: at.t, source };
         let (found, accuracy) = if self.rows.len() <= ROWS_MAX {
-            let rows = Rows::new(&self.mechanism, at.t, &q, known)?;
+            // A configuration that is only accurate to the motion gains nothing in double-double.
+            let s = evaluated(&self.mechanism, at.t, &q);
+            let rows = if known == Known::AsStored {
+                Rows::new(&self.mechanism, at.t, &q, known)?
+            } else {
+                Rows::at(&self.mechanism, Cow::Borrowed(&s), &q, known)
+            };
             let decision = if known == Known::AsStored {
                 Some(rows.decide()?)
             } else {
@@ -340,7 +353,7 @@ impl OpenPart<'_> {
                 decision.status == RankStatus::Decided && decision.redundancy == self.redundancy;
             let solvability = Solvability::from_decision(&rows.matrix(), decision);
             let basis = solvability.basis();
-            let found = self.judged(whole, at, forms, (&|_| Cow::Borrowed(basis), &|_| false));
+            let found = self.judged(whole, at, forms, &|_| Cow::Borrowed(basis));
             let (scaling, sigma) = {
                 let decision = solvability.decision();
                 (&decision.scaling, decision.evidence.sigma_r)
@@ -361,7 +374,7 @@ impl OpenPart<'_> {
             let is_of_motion =
                 decided.found.is_decided() && decided.found.redundancy == self.redundancy;
             let basis = |rows: &[usize]| Cow::Owned(decided.basis(rows));
-            let found = self.judged(whole, at, forms, (&basis, &|_| false));
+            let found = self.judged(whole, at, forms, &basis);
             let all: Vec<usize> = (0..self.rows.len()).collect();
             let size = model::start::scene_size(&self.mechanism, &q);
             let (scaling, sigma) = (&decided.found.scaling, decided.found.evidence.sigma_r);
@@ -461,38 +474,18 @@ impl OpenPart<'_> {
         sums.map(|(sum, factor)| sum * factor).fold(0.0, f64::hypot)
     }
 
-    /// Takes note of joints and drives without a determined number at an instant of a stretch.
-    fn note_free(&mut self, verdicts: &Verdicts, stretch: usize) {
-        let mut verdicts = verdicts.iter();
-        let groups = self.mechanism.layout().groups.iter();
-        for (group, free) in groups.zip(&mut self.free) {
-            let count = number_names(group).count();
-            let own = verdicts.by_ref().take(count);
-            let is_free = |v: &&Option<Verdict>| matches!(v, Some(Verdict::NotUnique));
-            if own.filter(is_free).count() == count && count > 0 {
-                *free = Some(stretch);
-            }
-        }
-    }
-
     /// The verdicts on all numbers of the part, with a basis for rows of the part. A basis of all
-    /// rows may be given for some of them. Numbers of joints and drives that are known to be free
-    /// are not unique.
+    /// rows may be given for some of them.
     fn judged<'b>(
         &self,
         whole: &Mechanism,
         at: &CarriedState<'_>,
         forms: &[LinearForm],
-        (basis, is_free): (&BasisOf<'_, 'b>, &dyn Fn(usize) -> bool),
+        basis: &BasisOf<'_, 'b>,
     ) -> Result<Vec<Verdict>, QueryError> {
         let mut verdicts = Vec::new();
         for (own, group) in self.mechanism.layout().groups.iter().enumerate() {
             let id = ConstraintId(self.extent.group(own));
-            if is_free(own) {
-                let count = number_names(group).count();
-                verdicts.resize(verdicts.len() + count, Verdict::NotUnique);
-                continue;
-            }
             let rows: Vec<usize> = group.rows.iter().collect();
             let basis = basis(&rows);
             let places = places(&basis, &rows, self.rows.len());

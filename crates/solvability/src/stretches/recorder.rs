@@ -64,6 +64,14 @@ impl VerdictRecorder {
         self.cuts.push(t);
     }
 
+    /// The verdict on a number at the last instant that was seen.
+    pub(super) fn latest(&self, number: usize) -> Option<&Verdict> {
+        match self.ahead.back() {
+            Some((_, verdicts)) => verdicts[number].as_ref(),
+            None => self.numbers[number].changes.last()?.1.as_ref(),
+        }
+    }
+
     /// Number of numbers.
     pub(super) fn numbers(&self) -> usize {
         self.numbers.len()

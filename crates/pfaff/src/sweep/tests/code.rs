@@ -3,6 +3,7 @@
 use super::super::job::Keep;
 use super::super::make::TOGETHER;
 use super::*;
+use report::sweep::Extreme;
 
 /// A cart on two knife edges, whose forces along them are not unique, with a pendulum.
 const CART: &str = r#"
@@ -103,8 +104,8 @@ fn cells(row: &SweepRow) -> Vec<u64> {
         motion.start_correction,
         motion.start_velocity_correction,
     ];
-    let extremes = motion.extremes.iter();
-    let extremes = extremes.flat_map(|e| [e.force, e.force_time, e.torque, e.torque_time]);
+    let extremes = motion.extremes.iter().flatten().flatten();
+    let extremes = extremes.flat_map(Extreme::cells);
     let counts = [
         motion.steps,
         motion.rejected,
@@ -168,8 +169,12 @@ fn runs_on_code_are_those_of_the_interpreter() {
             let (found, expected) = (row.motion.as_ref(), other.motion.as_ref());
             let (found, expected) = (found.expect("moved"), expected.expect("moved"));
             let state = found.state.iter().zip(&expected.state);
-            let forces = found.extremes.iter().zip(&expected.extremes);
-            let forces = forces.map(|(a, b)| (&a.force, &b.force));
+            let of = |motion: &SweepMotion| -> Vec<f64> {
+                let forces = motion.extremes.iter().flatten();
+                forces.map(|[force, _]| force.cells()[0]).collect()
+            };
+            let (found_forces, expected_forces) = (of(found), of(expected));
+            let forces = found_forces.iter().zip(&expected_forces);
             for (a, b) in state.chain(forces) {
                 let same = (a - b).abs() <= 1e-9 * b.abs().max(1.0) || a.is_nan() && b.is_nan();
                 assert!(same, "run {} of {vary:?}: {a:e} {b:e}", row.run);
