@@ -62,7 +62,7 @@ impl Displaced<'_> {
     }
 
     /// Moves coordinates onto the kept holonomic rows; returns how far, in sizes.
-    fn follow(&self, mechanism: &Mechanism, q: &mut Vec<f64>) -> Option<f64> {
+    fn follow(&self, mechanism: &Mechanism, q: &mut [f64]) -> Option<f64> {
         let m = mechanism.layout().m;
         let holonomic = &self.kept[..self.kept.partition_point(|&i| i < m)];
         let mut s = mechanism.scratch();

@@ -164,7 +164,7 @@ impl<'a> Displaced<'a> {
     fn with(
         &self,
         mechanism: &Mechanism,
-        (q, v): (&mut Vec<f64>, &mut Vec<f64>),
+        (q, v): (&mut [f64], &mut [f64]),
         is_small: bool,
     ) -> Option<Vec<f64>> {
         let rows = Kept::new(mechanism, self.kept, self.size);
