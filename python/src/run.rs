@@ -43,8 +43,11 @@ impl Recorded {
         let width = columns.len().max(1);
         for (k, number) in self.reactions.iter_mut().enumerate() {
             let (t, column) = (self.t[k / width], &columns[k % width]);
-            if column.quantity.is_determined(stretches, t) {
-                self.chosen.iter_mut().for_each(|(_, own)| own[k] = *number);
+            let value = column.quantity.value(stretches, t, *number);
+            if let Some(determined) = value.determined() {
+                self.chosen
+                    .iter_mut()
+                    .for_each(|(_, own)| own[k] = determined);
             } else if !are_told {
                 *number = f64::NAN;
             }

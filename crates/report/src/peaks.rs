@@ -72,9 +72,7 @@ impl PeakRecorder {
     pub fn finish(&self, columns: &[ReactionColumn], stretches: &Stretches) -> Vec<Option<Peak>> {
         let of = |(column, peaks): (&ReactionColumn, &Vec<[f64; 2]>)| {
             let track = column.quantity.verdicts(stretches);
-            let value = |number: f64, t: f64| {
-                track.map_or_else(|| Value::unique(number), |track| track.value(t, number))
-            };
+            let value = |number: f64, t: f64| column.quantity.value(stretches, t, number);
             let determined = |&[number, t]: &[f64; 2]| {
                 let number = value(number, t).determined();
                 Some([number.filter(|number| number.is_finite())?, t])

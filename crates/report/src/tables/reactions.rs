@@ -5,7 +5,7 @@
 use std::io::{self, BufRead, Write};
 
 use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
-use solvability::{Chosen, Group, Stretches, VerdictTrack};
+use solvability::{Chosen, Group, Stretches, Value, VerdictTrack};
 
 use super::{Column, Table, TableError};
 
@@ -78,6 +78,13 @@ impl Quantity {
                 named.map(|(_, track)| track)
             }
         }
+    }
+
+    /// A number of it at a time with the verdict on the stretch that contains it.
+    #[must_use]
+    pub fn value(&self, stretches: &Stretches, t: f64, number: f64) -> Value {
+        let track = self.verdicts(stretches);
+        track.map_or_else(|| Value::unique(number), |track| track.value(t, number))
     }
 }
 

@@ -185,21 +185,20 @@ impl<'a> Instant<'a> {
         };
         let slopes = held.slopes(numbers, &self.blocks);
         let mut gradient = vec![0.0; self.mechanism.data().count()];
-        let mut strongest = Vec::new();
-        let each = numbers.iter().zip(&slopes).enumerate();
-        let each = each.map(|(k, (number, slopes))| {
+        let each = numbers.iter().zip(&slopes);
+        let each = each.map(|(number, slopes)| {
             self.gradient(number, slopes, &mut gradient)?;
-            let change = self.change(number, &gradient);
-            if self.displaced.is_some() {
-                strongest.extend(self.strongest((k, &change), &gradient));
-            }
-            Ok(change)
+            Ok(self.change(number, &gradient))
         });
         let mut changes = each.collect::<Result<Vec<_>, ChoiceError>>()?;
-        if let Some(displaced) = &self.displaced
-            && changes.iter().any(|change| change.share() >= FIRST_ORDER)
-        {
-            self.displace(displaced, numbers, strongest, &mut changes);
+        let is_curved = changes.iter().any(|change| change.share() >= FIRST_ORDER);
+        if self.displaced.is_some() && is_curved {
+            let mut strongest = Vec::new();
+            for (k, (number, slopes)) in numbers.iter().zip(&slopes).enumerate() {
+                self.gradient(number, slopes, &mut gradient)?;
+                strongest.extend(self.strongest((k, &changes[k]), &gradient));
+            }
+            self.displace(numbers, strongest, &mut changes);
         }
         Ok(changes)
     }
@@ -208,11 +207,13 @@ impl<'a> Instant<'a> {
     /// first. Numbers that are fragile to first order stay as they are.
     fn displace(
         &self,
-        displaced: &Displaced<'_>,
         numbers: &[ReactionNumber],
         mut strongest: Vec<Displacement>,
         changes: &mut [Change],
     ) {
+        let Some(displaced) = &self.displaced else {
+            return;
+        };
         strongest.sort_by(|a, b| b.share.total_cmp(&a.share));
         let mut all: Vec<Displacement> = Vec::new();
         for own in strongest {
