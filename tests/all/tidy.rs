@@ -131,6 +131,22 @@ fn json_is_written_by_report_alone() {
     }
 }
 
+/// What the README says of a checkout is what is checked before a change lands.
+#[test]
+fn the_test_command_of_the_readme_is_that_of_the_checks() {
+    let readme = read("README.md");
+    let checkout = readme.split("## In a checkout").nth(1).expect("a section");
+    let test = checkout.lines().find(|line| line.starts_with("cargo test"));
+    let test = test.expect("a command");
+    let checks = read(".ci/run");
+    let steps: Vec<&str> = checks
+        .lines()
+        .filter_map(|line| line.strip_prefix("step "))
+        .filter(|step| step.starts_with("cargo test"))
+        .collect();
+    assert_eq!(steps, [test]);
+}
+
 #[test]
 fn every_crate_has_a_readme_and_a_licence() {
     for name in crates() {
