@@ -9,7 +9,7 @@ use pfaff::{AssembledScene, StudyError};
 use super::decomposition::Decomposition;
 use super::findings::{Count, Findings, Kind};
 use super::moves::{march, marches, moves, ranks};
-use super::oracle::{Fault, Instant, inverse};
+use super::oracle::{Instant, inverse};
 use super::run::Run;
 use super::second_order::SecondOrder;
 use crate::numbers::Numbers;
@@ -102,10 +102,10 @@ pub(super) fn on_the_way(
         return findings.count(Count::Cut, 1);
     }
     let (state, left) = ((row.t, &row.q[..], &row.v[..]), run.reached - row.t);
-    let is_singular = is_near_singular(mechanism, (row.t_before, &row.q, &row.v))
+    let is_singular = is_near_singular(mechanism, (row.t_before, &row.q))
         || is_singular(mechanism, (row.t_before, &row.q), numbers)
         || march(mechanism, state, left)
-            .is_some_and(|q| is_near_singular(mechanism, (run.reached, &q, &row.v)));
+            .is_some_and(|q| is_near_singular(mechanism, (run.reached, &q)));
     // The motion goes on as it went, from rest along any free motion.
     let is_at_rest = row.v.iter().all(|v| *v == 0.0);
     let goes_on = marches(mechanism, state, left + AFTER)
@@ -137,9 +137,7 @@ fn is_singular(mechanism: &Mechanism, at: (f64, &[f64]), numbers: &mut Numbers) 
     here < near || SecondOrder::at(mechanism, at).is_none_or(|mut o| o.is_restricted(numbers))
 }
 
-fn is_near_singular(mechanism: &Mechanism, state: (f64, &[f64], &[f64])) -> bool {
-    match Instant::new(mechanism, state) {
-        Ok(instant) => instant.sigma < 1e-3,
-        Err(fault) => fault == Fault::Unclear,
-    }
+/// Whether a configuration is near one of lower rank; velocities do not matter.
+fn is_near_singular(mechanism: &Mechanism, at: (f64, &[f64])) -> bool {
+    SecondOrder::at(mechanism, at).is_none_or(|order| order.sigma() < 1e-3)
 }

@@ -55,6 +55,13 @@ impl<'m> SecondOrder<'m> {
         })
     }
 
+    /// The smallest singular value that is not zero, over the largest one.
+    pub(super) fn sigma(&self) -> f64 {
+        let values = &self.range.values;
+        let largest = values.first().copied().unwrap_or(1.0);
+        values.last().map_or(1.0, |least| least / largest)
+    }
+
     /// Whether the equations forbid some of the motions that all rows allow to first order.
     pub(super) fn is_restricted(&mut self, numbers: &mut Numbers) -> bool {
         let n = self.units.len();
