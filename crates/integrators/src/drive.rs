@@ -395,14 +395,16 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         start
             .tolerance
             .scale(&self.states.y0, &self.states.y1, &mut self.states.scale);
-        let norm = stepper.error_norm(ode, trial, &start, &self.states.scale, statistics)?;
-        self.error_norm = Some(norm);
         let near = ode.delicate_time().filter(|d| is_near(d, trial));
         let is_over = |d: &Delicate| (trial.t1 - d.t) / trial.h > 0.0;
-        let permitted = match near {
-            Some(d) if is_over(&d) || self.noise == Noise::Known => d.slack,
-            _ => 1.0,
-        };
+        let may_exceed = |d: &Delicate| d.slack > 1.0 && (is_over(d) || self.noise == Noise::Known);
+        let permitted = near.filter(may_exceed).map_or(1.0, |delicate| {
+            let scale = self.states.scale.iter_mut();
+            scale.for_each(|weight| *weight = weight.max(delicate.least_scale));
+            delicate.slack
+        });
+        let norm = stepper.error_norm(ode, trial, &start, &self.states.scale, statistics)?;
+        self.error_norm = Some(norm);
         if norm.is_nan() || norm > permitted {
             if self.noise == Noise::None && near.is_some_and(|d| d.slack > 1.0) {
                 self.noise = Noise::Found;

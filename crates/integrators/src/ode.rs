@@ -80,6 +80,9 @@ pub struct Delicate {
     /// would come closer to it and be less accurate. For the same reason, once error control has
     /// failed within one step before it, steps up to it may exceed the tolerance as well.
     pub slack: f64,
+    /// Least weight of a component in the norm of a step that may exceed the tolerance: rounding
+    /// does not become less where a component is near zero.
+    pub least_scale: f64,
 }
 
 /// Information for [`Ode::end_of_step`] about the step.

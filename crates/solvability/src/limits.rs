@@ -286,9 +286,9 @@ pub(crate) const LIMIT_ARRIVED: f64 = 1e-11;
 /// `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_HALVINGS: usize = 40;
 
-/// Shares of the largest part below this are rounding, of drives and of curvatures.
+/// Shares of the largest part below this are rounding, of drives, of time and of curvatures.
 /// Unit: share. Less: rounding is a drive. More: a drive is left out. Test:
-/// `two_drives_reach_as_far_as_the_arm`.
+/// `two_drives_reach_as_far_as_the_arm`, `branches_that_meet_are_no_limit`.
 pub(crate) const LIMIT_ROUNDING: f64 = 1e-6;
 
 /// Free velocities there, at most: the curvature of more is not examined.
@@ -611,6 +611,12 @@ pub(crate) const FIRST_ORDER: f64 = 0.01;
 /// Unit: share. Less: time. More: a number changes more by another datum. Test:
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const ALIKE: f64 = 0.7;
+
+/// A datum is displaced once for numbers whose gradients have at least this cosine: next to a limit
+/// a number changes several times more where the direction turns by 0.03 rad.
+/// Unit: cosine. Less: numbers change more in a direction of their own. More: time. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+pub(crate) const SAME_WAY: f64 = 0.999_999;
 
 /// Data that are displaced near a limit, at most: those that move a number most.
 /// Unit: data. Less: a number hangs on one that is not displaced. More: time. Test:

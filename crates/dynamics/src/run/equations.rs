@@ -151,7 +151,7 @@ impl<'m> RunEquations<'m> {
     /// Whether stages are functions of time. Near a singular configuration, at which branches meet,
     /// the stages follow the integrator instead.
     fn is_by_time(&self) -> bool {
-        self.by_time.is_some() && self.motion.watch.delicate().is_none()
+        self.by_time.is_some() && self.motion.watch.delicate_time().is_none()
     }
 
     /// Whether the next stages have to be moved onto the constraints: near singular configurations,
@@ -160,7 +160,7 @@ impl<'m> RunEquations<'m> {
     fn wants_care(&self) -> bool {
         let motion = &self.motion;
         let off = motion.manifold.projects() && motion.independent().is_none();
-        let is_expected = self.passing.is_coarse && motion.watch.delicate().is_some();
+        let is_expected = self.passing.is_coarse && motion.watch.delicate_time().is_some();
         let is_near = is_expected || are_delicate(&motion.equations.velocity);
         off && (self.is_by_time() || is_near)
     }
@@ -183,7 +183,7 @@ impl<'m> RunEquations<'m> {
 
     /// Whether another method has to lead after an accepted step over these times.
     pub(super) fn hands_over(&self, [t0, t]: [f64; 2]) -> bool {
-        let delicate = self.motion.watch.delicate().map(|(t, _)| t);
+        let delicate = self.motion.watch.delicate_time();
         // Explicit steps up to it would be far shorter than those of an implicit method.
         let reach = if self.motion.independent().is_some() {
             IMPLICIT_REACH * (t - t0)
@@ -530,7 +530,7 @@ impl<'m> RunEquations<'m> {
         let motion = &mut self.motion;
         let (equations, watch) = (&motion.equations, &mut motion.watch);
         watch.look_ahead(equations, now, step);
-        let is_open = !may_have_passed && watch.delicate().is_none();
+        let is_open = !may_have_passed && watch.delicate_time().is_none();
         if let Some(code) = motion.code.as_mut().filter(|_| is_open) {
             let event = code.come_back(equations, now);
             self.record.events.extend(event);
@@ -631,8 +631,7 @@ impl Ode for RunEquations<'_> {
     }
 
     fn delicate_time(&self) -> Option<Delicate> {
-        let delicate = self.motion.watch.delicate();
-        delicate.map(|(t, slack)| Delicate { t, slack })
+        self.motion.watch.delicate(self.motion.equations.at.size)
     }
 
     /// If rates jump, an impulse of the constraints makes the velocities jump.

@@ -6,6 +6,7 @@
 //! only if its correction is small relative to the distance of the branches and its velocities
 //! continue those before it.
 
+use integrators::Delicate;
 use model::System;
 
 use super::exchange::{self, Exchange};
@@ -92,10 +93,19 @@ impl Watch {
         (NO_REACTIONS_TOLERANCES * self.rtol).clamp(NO_REACTIONS, NO_REACTIONS_MAX)
     }
 
-    /// Expected time of a singular configuration, and the factor by which steps over it may exceed
-    /// their tolerance.
-    pub(crate) fn delicate(&self) -> Option<(f64, f64)> {
-        self.delicate.map(|t| (t, (PASSED / self.rtol).max(1.0)))
+    /// Expected time of a singular configuration.
+    pub(crate) fn delicate_time(&self) -> Option<f64> {
+        self.delicate
+    }
+
+    /// Expected time of a singular configuration of a mechanism of this size (m), and by how much
+    /// steps over it may exceed their tolerance.
+    pub(crate) fn delicate(&self, size: f64) -> Option<Delicate> {
+        self.delicate.map(|t| Delicate {
+            t,
+            slack: (PASSED / self.rtol).max(1.0),
+            least_scale: self.rtol * size,
+        })
     }
 
     /// Whether the end of a step at t is a place where it must not end, at freshly factored rows.

@@ -163,6 +163,8 @@ struct Curve<'m> {
     kept: &'m [usize],
     /// Displacements of one unit: the size of the mechanism, or a radian.
     units: Vec<f64>,
+    /// The same for the kept rows.
+    row_units: Vec<f64>,
     /// Time in which the fastest function of time changes by one unit (s).
     second: f64,
 }
@@ -172,22 +174,25 @@ impl<'m> Curve<'m> {
     fn new(mechanism: &'m Mechanism, kept: &'m [usize], t: f64, q: &[f64]) -> Option<Self> {
         let size = scene_size(mechanism, q);
         let units = velocity_units(mechanism, size);
+        let of_row = |&i: &usize| {
+            if mechanism.layout().is_angular(i) {
+                1.0
+            } else {
+                size
+            }
+        };
         let mut curve = Self {
             mechanism,
             kept,
             units: units.iter().map(|unit| unit * size).collect(),
+            row_units: kept.iter().map(of_row).collect(),
             second: 1.0,
         };
         let s = curve.evaluated(t, q);
-        let rate = |&i: &usize| {
-            let unit = if mechanism.layout().is_angular(i) {
-                1.0
-            } else {
-                size
-            };
-            s.b[i].abs() / unit
-        };
-        let fastest = kept.iter().map(rate).fold(0.0, f64::max);
+        let rates = kept.iter().zip(&curve.row_units);
+        let fastest = rates
+            .map(|(&i, unit)| s.b[i].abs() / unit)
+            .fold(0.0, f64::max);
         curve.second = fastest.recip();
         (fastest > 0.0 && curve.second.is_finite()).then_some(curve)
     }
@@ -309,6 +314,12 @@ impl<'m> Curve<'m> {
             .collect();
         // Φ_t = −b
         let of_time = -drawn.iter().sum::<f64>();
+        // Where branches meet, the rows depend on each other in coordinates and time, too.
+        let parts = stress.iter().zip(&self.row_units);
+        let largest = parts.fold(0.0_f64, |a, (z, unit)| a.max((z * unit).abs()));
+        if of_time.abs() * self.second <= LIMIT_ROUNDING * largest {
+            return None;
+        }
         let mut curvature = |w: &[f64]| {
             let v: Vec<f64> = w
                 .iter()

@@ -25,15 +25,17 @@ pub(super) struct Displaced<'a> {
 }
 
 impl Displaced<'_> {
-    /// The values of numbers with other data. `data` are all numbers of the constraints after a
-    /// share of the displacement; bodies follow in several steps. `None` if no pose near the one
-    /// before satisfies the rows.
-    pub(super) fn values(
+    /// The largest changes of numbers from these values on the way to other data. `data` are all
+    /// numbers of the constraints after a share of the displacement; bodies follow in several steps.
+    /// `None` if no pose near the one before satisfies the rows.
+    pub(super) fn changes(
         &self,
         numbers: &[ReactionNumber],
+        values: &[f64],
         data: impl Fn(f64) -> Vec<f64>,
     ) -> Option<Vec<f64>> {
         let (mut q, mut at, mut rate) = (self.q.to_vec(), 0.0, f64::INFINITY);
+        let mut changes = vec![0.0_f64; values.len()];
         // The first step is short: it shows how fast bodies move.
         let all = (1..=FOLLOW_STEPS).map(|k| k as f64 / FOLLOW_STEPS as f64);
         for share in std::iter::once(FOLLOW_FIRST).chain(all) {
@@ -44,8 +46,13 @@ impl Displaced<'_> {
             }
             rate = moved.max(FOLLOW_END) / (share - at);
             at = share;
+            // Where the displaced mechanism passes nearest to a lower rank, a number is largest.
+            let there = self.solved(&displaced, &q, numbers)?;
+            for (change, (there, value)) in changes.iter_mut().zip(there.iter().zip(values)) {
+                *change = change.max((there - value).abs());
+            }
         }
-        self.solved(&self.mechanism.with_numbers(&data(1.0)), &q, numbers)
+        Some(changes)
     }
 
     /// These rows at the pose of the scratch, without dimensions.

@@ -3,7 +3,7 @@
 
 use crate::limits::{
     ALIKE, FIRST_ORDER, FOLLOWED_DATA, FOLLOWED_WORK, FRAGILE, LOAD_ROUNDING, MOVED, NEAR_LIMIT,
-    PIECE, SAME_EFFECT,
+    PIECE, SAME_EFFECT, SAME_WAY,
 };
 use std::borrow::Cow;
 
@@ -195,6 +195,10 @@ impl<'a> Instant<'a> {
         if self.displaced.is_some() && is_curved {
             let mut strongest = Vec::new();
             for (k, (number, slopes)) in numbers.iter().zip(&slopes).enumerate() {
+                let share = changes[k].share();
+                if share.is_nan() || share > FRAGILE {
+                    continue;
+                }
                 self.gradient(number, slopes, &mut gradient)?;
                 strongest.extend(self.strongest((k, &changes[k]), &gradient));
             }
@@ -225,10 +229,11 @@ impl<'a> Instant<'a> {
         let n = self.mechanism.layout().n_v;
         all.truncate(FOLLOWED_DATA.min(FOLLOWED_WORK / (1 + self.kept.len() * n * n)));
         let stored = self.mechanism.data().numbers();
+        let values: Vec<f64> = changes.iter().map(|change| change.value).collect();
         for own in &all {
             let (block, moved) = &self.blocks[own.block];
             for sign in [1.0, -1.0] {
-                let there = displaced.values(numbers, |share: f64| {
+                let there = displaced.changes(numbers, &values, |share: f64| {
                     let mut all = stored.clone();
                     let by = own.by.map(|x| sign * share * moved * x);
                     let there = block.displaced(&stored[block.numbers.clone()], by);
@@ -241,7 +246,7 @@ impl<'a> Instant<'a> {
                         continue;
                     }
                     let other = match &there {
-                        Some(values) => (values[k] - change.value).abs(),
+                        Some(changes) => changes[k],
                         // Without a pose a number that the datum moves is none.
                         None if own.numbers.contains(&k) && share >= FIRST_ORDER => change.whole(),
                         None => 0.0,
@@ -382,7 +387,7 @@ struct Displacement {
 impl Displacement {
     fn is_same(&self, other: &Self) -> bool {
         let along: f64 = self.by.iter().zip(other.by).map(|(a, b)| a * b).sum();
-        self.block == other.block && along.abs() > 0.99
+        self.block == other.block && along.abs() > SAME_WAY
     }
 }
 

@@ -155,3 +155,38 @@ fn a_free_arm_reaches_as_far_as_it_is_long() {
     d.drive("motor", &[GROUND, crank], motor, rate(1.0));
     assert_eq!(limit(&d), None);
 }
+
+/// A parallelogram passes the pose in which its bars are in line, where the branches of its motion
+/// meet: its drive goes on, wherever beside that pose the search begins.
+#[test]
+fn branches_that_meet_are_no_limit() {
+    for angle in [0.0, -1e-14, -1e-12, -1e-9, -1e-6, -1e-3] {
+        let mut d = Description::new("parallelogram");
+        let (left, first) = bar(&mut d, GROUND, [0.0; 2], angle);
+        let (right, second) = bar(&mut d, GROUND, [2.0, 0.0], angle);
+        let position = [0.5 * (left[0] + right[0]), 0.5 * (left[1] + right[1])];
+        let coupler = d.body(Body {
+            position,
+            ..Body::new("coupler", 1.0, 0.1)
+        });
+        for (at, crank) in [(left, first), (right, second)] {
+            let [s_i, s_j] = [crank, coupler].map(|b| d.local(b, at));
+            let name = format!("pin {}", d.joints.len());
+            d.joint(&name, &[crank, coupler], Revolute { s_i, s_j });
+        }
+        let motor = RevoluteAngleDrive::new([0.0; 2], d.local(first, [0.0; 2]));
+        d.drive("motor", &[GROUND, first], motor, rate(1.0));
+        let mut mechanism = Mechanism::build(&d).expect("builds");
+        let q = assemble(&mut mechanism, &StartOptions::default())
+            .expect("assembles")
+            .q;
+        // All bars turn with 1 rad/s, and the coupler follows without turning.
+        let of_crank = |x: f64| [-(0.5 * angle.sin()), 0.5 * angle.cos(), x];
+        let [left, right] = [of_crank(1.0), of_crank(1.0)];
+        let coupler = [-angle.sin(), angle.cos(), 0.0];
+        let v = [left, right, coupler].concat();
+        let kept: Vec<usize> = (0..mechanism.layout().m).collect();
+        let found = drive_limit(&mechanism, &kept, (0.0, &q, &v));
+        assert_eq!(found, None, "at {angle} rad");
+    }
+}
