@@ -14,8 +14,15 @@ const MOVED: f64 = 1e-4;
 /// A piece that is smaller than a twentieth of the mechanism is made more accurately.
 const PIECE: f64 = 20.0;
 
-/// Displacement for derivatives, relative to the full one.
-const SMALL: f64 = 1e-3;
+/// Displacement for derivatives, relative to the full one: bodies follow it by its quotient with the
+/// smallest singular value, which has to be far below that value itself.
+const SMALL: f64 = 1e-5;
+
+/// The first of the steps of a displacement.
+const FIRST: f64 = 1e-3;
+
+/// Effects to both sides that differ by this share of their sum are not of first order.
+const CURVED: f64 = 0.1;
 
 /// A displacement is made in so many steps, so that bodies follow on their branch.
 const STEPS: usize = 8;
@@ -26,6 +33,18 @@ const JUMP: f64 = 5.0;
 /// Iterations of Newton's method, and the correction (sizes) after which there is no other.
 const ITERATIONS: usize = 12;
 const CONVERGED: f64 = 1e-13;
+
+/// The change of a component with one datum, as far as first order goes.
+#[derive(Clone, Default)]
+struct Effect {
+    size: f64,
+    /// The number of the datum.
+    block: usize,
+    /// The displacement with the largest effect.
+    by: [f64; 3],
+    /// Whether displacements to both sides have the same effect.
+    is_straight: bool,
+}
 
 /// The state whose data are displaced.
 pub(super) struct Displaced<'a> {
@@ -74,41 +93,62 @@ impl<'a> Displaced<'a> {
     /// By component, the largest changes of its value by any one datum, in both directions.
     pub(super) fn changes(&self) -> Vec<f64> {
         let count = self.values.len();
-        // By component: the largest effect so far, its datum and its direction.
-        let mut most: Vec<(f64, usize, [f64; 3])> = vec![(0.0, 0, [0.0; 3]); count];
+        let mut most = vec![Effect::default(); count];
         for (k, block) in self.blocks.iter().enumerate() {
-            let moved = self.moved(block);
-            let mut gradients = vec![[0.0; 3]; count];
-            for axis in 0..block.directions() {
-                let mut by = [0.0; 3];
-                by[axis] = SMALL * moved;
-                let Some(values) = self.displaced_little(block, by) else {
-                    continue;
-                };
-                for ((g, new), old) in gradients.iter_mut().zip(values).zip(&self.values) {
-                    g[axis] = (new - old) / SMALL;
-                }
-            }
-            for (most, g) in most.iter_mut().zip(gradients) {
-                let effect = g[0].hypot(g[1]).hypot(g[2]);
-                if effect > most.0 {
-                    *most = (effect, k, g.map(|g| g / effect * moved));
+            for (most, effect) in most.iter_mut().zip(self.effects(k, block)) {
+                if effect.size > most.size {
+                    *most = effect;
                 }
             }
         }
         let mut changes = vec![0.0_f64; count];
-        for (k, &(effect, block, by)) in most.iter().enumerate() {
-            if effect == 0.0 {
+        for (k, effect) in most.iter().enumerate() {
+            if effect.size == 0.0 {
                 continue;
             }
             for sign in [1.0, -1.0] {
-                let values = self.displaced(&self.blocks[block], by.map(|x| sign * x));
+                let by = effect.by.map(|x| sign * x);
+                let values = self.displaced(&self.blocks[effect.block], by);
                 // Where nothing satisfies the displaced rows, first order is all there is.
-                let change = values.map_or(effect, |v| (v[k] - self.values[k]).abs());
+                let alone = if effect.is_straight { effect.size } else { 0.0 };
+                let change = values.map_or(alone, |v| (v[k] - self.values[k]).abs());
                 changes[k] = changes[k].max(change);
             }
         }
         changes
+    }
+
+    /// By component, the effect of one datum to first order.
+    fn effects(&self, number: usize, block: &DataBlock) -> Vec<Effect> {
+        let moved = self.moved(block);
+        let none = Effect {
+            block: number,
+            is_straight: true,
+            ..Effect::default()
+        };
+        let mut effects = vec![none; self.values.len()];
+        for axis in 0..block.directions() {
+            let [after, before] = [SMALL, -SMALL].map(|small| {
+                let mut by = [0.0; 3];
+                by[axis] = small * moved;
+                self.displaced_little(block, by)
+            });
+            let (Some(after), Some(before)) = (after, before) else {
+                continue;
+            };
+            let values = after.iter().zip(&before).zip(&self.values);
+            for (effect, ((after, before), value)) in effects.iter_mut().zip(values) {
+                let (up, down) = (after - value, value - before);
+                effect.by[axis] = 0.5 * (up + down) / SMALL;
+                effect.is_straight &= (up - down).abs() <= CURVED * (up + down).abs();
+            }
+        }
+        for effect in &mut effects {
+            let [x, y, z] = effect.by;
+            effect.size = x.hypot(y).hypot(z);
+            effect.by = effect.by.map(|g| g / effect.size * moved);
+        }
+        effects
     }
 
     fn moved(&self, block: &DataBlock) -> f64 {
@@ -146,7 +186,7 @@ impl<'a> Displaced<'a> {
         let [mut q, mut v] = [&self.row.q, &self.row.v].map(|x| x.clone());
         let (mut values, mut at, mut rate) = (None, 0.0, f64::INFINITY);
         let all = (1..=STEPS).map(|k| k as f64 / STEPS as f64);
-        for share in std::iter::once(SMALL).chain(all) {
+        for share in std::iter::once(FIRST).chain(all) {
             let mechanism = self.with_displaced(block, by.map(|x| share * x));
             let begun = q.clone();
             values = Some(self.with(&mechanism, (&mut q, &mut v), false)?);

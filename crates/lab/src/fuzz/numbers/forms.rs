@@ -1,6 +1,6 @@
 //! Components of reactions as linear forms of the multipliers.
 
-use model::{ConstraintId, Mechanism, Reaction, Scratch, System};
+use model::{Mechanism, Reaction, Scratch, System};
 
 /// A component of the reaction of a joint or drive.
 #[derive(Clone, Debug)]
@@ -29,8 +29,8 @@ impl Form {
     }
 }
 
-/// All components that are not identically zero, at the poses of a scratch. Named components of
-/// joints are forces; those of drives of an angle are torques.
+/// All components that are not identically zero, at the poses of a scratch. A named component is a
+/// torque if the row that it belongs to is an angle.
 #[must_use]
 pub fn forms(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<Form> {
     let (layout, reactions) = (mechanism.layout(), mechanism.reactions(s));
@@ -59,15 +59,8 @@ pub fn forms(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<Form> {
             add(group.space.components()[k], Some(k), torques.contains(&k));
         }
         if let Some(name) = group.spec.component {
-            add(name, None, group.is_drive() && !has_force(mechanism, id));
+            add(name, None, layout.is_angular(group.rows.row(0)));
         }
     }
     all
-}
-
-/// Whether a component of a reaction is a force.
-fn has_force(mechanism: &Mechanism, id: ConstraintId) -> bool {
-    let group = &mechanism.layout().groups[id.0];
-    let forces = group.space.forces();
-    group.components().iter().any(|k| forces.contains(k))
 }
