@@ -18,6 +18,9 @@ pub(super) struct Space<'a> {
 /// A subspace: f × k, orthonormal columns of coefficients.
 pub(super) type Subspace = Matrix;
 
+/// Linear forms that vanish, in coefficients of a space: one row of f numbers for each form.
+pub(super) type Condition = Matrix;
+
 impl<'a> Space<'a> {
     /// The space that the orthonormal columns span.
     pub(super) fn new(all: &'a Matrix) -> Self {
@@ -54,25 +57,30 @@ impl<'a> Space<'a> {
         true
     }
 
-    /// The part of a subspace in which these forms vanish. Returns `None` if it contains nothing
-    /// new.
-    pub(super) fn restricted(&self, y: &Subspace, forms: &[Form]) -> Option<Subspace> {
-        let k = y.ncols();
-        let mut a = Matrix::zeros(forms.len(), k);
+    /// These forms as a condition of coefficients.
+    pub(super) fn condition(&self, forms: &[Form]) -> Condition {
+        let mut rows = Matrix::zeros(forms.len(), self.all.ncols());
         for (i, form) in forms.iter().enumerate() {
-            let mut g = vec![0.0; self.all.ncols()];
+            let g = rows.row_mut(i);
             for &(j, coefficient) in form {
                 for (g, n) in g.iter_mut().zip(self.all.row(j)) {
                     *g += coefficient * n;
                 }
             }
-            a.row_mut(i).copy_from_slice(&y.transpose_times(&g));
         }
-        let qr = PivotedQr::of_rows(a);
+        rows
+    }
+
+    /// The part of a subspace that satisfies a condition. Returns `None` if it contains nothing
+    /// new.
+    pub(super) fn restricted(&self, y: &Subspace, condition: &Condition) -> Option<Subspace> {
+        let k = y.ncols();
+        let qr = PivotedQr::of_rows(condition.product(y));
         let rank = qr.r_diagonal().filter(|r| r.abs() > SATISFIED).count();
         let mut left = Matrix::zeros(y.nrows(), k - rank);
+        let mut row = vec![0.0; k];
         for i in 0..y.nrows() {
-            let mut row = y.row(i).to_vec();
+            row.copy_from_slice(y.row(i));
             qr.q_transpose_mul(&mut row);
             left.row_mut(i).copy_from_slice(&row[rank..]);
         }
@@ -135,13 +143,13 @@ mod tests {
         let half = 0.5_f64.sqrt();
         let all = Matrix::from_rows(&[[half, 0.0], [half, 0.0], [0.0, 1.0]]);
         let mut space = Space::new(&all);
-        let first = [vec![(0, 1.0)]];
+        let first = space.condition(&[vec![(0, 1.0)]]);
         let y = space.restricted(&space.whole(), &first).expect("c is left");
         let v = space.take(&y).expect("new");
         assert!(v[0].abs() < 1e-15 && v[1].abs() < 1e-15 && (v[2].abs() - 1.0).abs() < 1e-15);
         assert_eq!(space.left(), 1);
         assert!(space.restricted(&space.whole(), &first).is_none());
-        let third = [vec![(2, 1.0)]];
+        let third = space.condition(&[vec![(2, 1.0)]]);
         let y = space
             .restricted(&space.whole(), &third)
             .expect("a = b is left");

@@ -13,7 +13,7 @@ use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 use rank::Uncertainty;
 
-use super::basis::{Form, Space, Subspace};
+use super::basis::{Condition, Form, Space, Subspace};
 
 /// Connected bodies at a configuration, as a separate mechanism.
 pub(super) struct Component<'a> {
@@ -123,7 +123,7 @@ impl<'a> Component<'a> {
         if y.ncols() > 1 {
             y = self.smallest(space);
             for wish in self.wishes() {
-                y = space.restricted(&y, &wish).unwrap_or(y);
+                y = space.restricted(&y, &space.condition(&wish)).unwrap_or(y);
             }
         }
         space.take(&y)
@@ -142,18 +142,22 @@ impl<'a> Component<'a> {
             order.sort_by(|&a, &b| bodies[b].mass.total_cmp(&bodies[a].mass));
             order
         };
+        let held = (0..groups).map(|group| space.condition(&self.held(group)));
+        let held: Vec<Condition> = held.collect();
+        let at_rest = (0..bodies.len()).map(|body| space.condition(&self.at_rest(body)));
+        let at_rest: Vec<Condition> = at_rest.collect();
         let mut best: Option<(Cost, Subspace)> = None;
         for target in self.targets().into_iter().take(trials) {
             let mut cost = Cost::default();
             let mut y = whole.clone();
             for group in self.farthest_first(target) {
-                match space.restricted(&y, &self.held(group)) {
+                match space.restricted(&y, &held[group]) {
                     Some(left) => y = left,
                     None => cost.joints += 1,
                 }
             }
             for &body in &heaviest_first {
-                match space.restricted(&y, &self.at_rest(body)) {
+                match space.restricted(&y, &at_rest[body]) {
                     Some(left) => y = left,
                     None => {
                         cost.bodies += 1;
