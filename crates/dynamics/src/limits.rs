@@ -198,14 +198,12 @@ pub(crate) const STEADY_FRACTION: f64 = 1e-6;
 /// is left out. Test: `what_the_motion_depends_on_cannot_be_followed`.
 pub(crate) const SYMMETRY: f64 = 1e-7;
 
-#[cfg(feature = "eigen")]
 /// Eigenvalues below this share of the largest one are zero: the square root of rounding, since
 /// zeros of free motions are double.
 /// Unit: share of the largest eigenvalue. Less: free motions seem to grow or decay. More: slow
 /// modes are lost. Test: `the_benchmark_bicycle_has_its_published_eigenvalues`.
 pub(crate) const ZERO_EIGENVALUE: f64 = 1e-7;
 
-#[cfg(feature = "eigen")]
 /// Rounding of the entries of A, for each of its rows.
 /// Unit: share of the norm of A. Less: zeros of large Jordan blocks seem to grow. More: slow modes
 /// of mechanisms that are stiff elsewhere are lost. Test:
@@ -441,6 +439,13 @@ pub(crate) const IMPLICIT_REACH: f64 = 4.0;
 /// Unit: share of the size. Less: steps up to it lose accuracy of the method. More: far from the
 /// origin passages fail. Test: `parallelograms_pass_their_flat_poses_at_speed`.
 pub(crate) const COARSE: f64 = 1e-13;
+
+/// Weight of a component near zero in the norm of a step over a singular configuration: rounding
+/// does not become less with the component.
+/// Unit: tolerances times the size of the mechanism. Less: steps collapse before it where a
+/// component is near zero. More: another branch is taken. Test:
+/// `a_passage_far_away_is_as_good_as_its_coordinates_are_known`.
+pub(crate) const LEAST_SCALE: f64 = 0.1;
 
 /// Relative error of a step over a singular configuration that rounding may cause where steps are
 /// short; 1e-10 was not enough at 1e-10 where generated code is left on the way to one.

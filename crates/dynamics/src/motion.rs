@@ -471,12 +471,17 @@ impl<'m> KeptRowMotion<'m> {
             self.interpret(state, &mut vec![0.0; v.len()])?;
             return inspect(&mut self.equations, t, q, v);
         }
-        let corrections = manifold.settle_completed(equations, t, (&mut *q, &mut *v))?;
-        let rows = match manifold.coordinates {
-            Some(_) => None,
-            None => watch.rows_for_output(equations, q)?,
-        };
-        let Some(rows) = rows else {
+        let mut corrections = manifold.settle_completed(equations, t, (&mut *q, &mut *v))?;
+        if manifold.coordinates.is_some() {
+            return manifold.finish(equations, v, corrections);
+        }
+        if let Some(rows) = watch.position_rows_for_output(equations, q)? {
+            let kept = std::mem::replace(&mut equations.position, rows);
+            let settled = manifold.settle(equations, t, q);
+            equations.position = kept;
+            corrections += settled?;
+        }
+        let Some(rows) = watch.rows_for_output(equations, q)? else {
             return manifold.finish(equations, v, corrections);
         };
         let kept = std::mem::replace(&mut equations.velocity, rows);

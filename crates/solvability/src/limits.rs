@@ -288,7 +288,7 @@ pub(crate) const LIMIT_HALVINGS: usize = 40;
 
 /// Shares of the largest part below this are rounding, of drives, of time and of curvatures.
 /// Unit: share. Less: rounding is a drive. More: a drive is left out. Test:
-/// `two_drives_reach_as_far_as_the_arm`, `branches_that_meet_are_no_limit`.
+/// `branches_that_meet_are_no_limit`.
 pub(crate) const LIMIT_ROUNDING: f64 = 1e-6;
 
 /// Free velocities there, at most: the curvature of more is not examined.

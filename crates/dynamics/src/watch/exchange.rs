@@ -146,12 +146,28 @@ pub(super) fn better_for_row(
     choice: &RowChoice,
     q: &[f64],
 ) -> Result<Option<KeptRows>, MotionFault> {
-    let stays = !GUARDED || equations.have_missed() || are_sound(&equations.velocity);
-    if stays || !want_exchange(equations, choice) {
+    if suit_output(equations) || !want_exchange(equations, choice) {
         return Ok(None);
     }
     let (at, old) = (&equations.at, &mut equations.velocity);
     better(at, decide_rows(at.mechanism, &at.s, q), old)
+}
+
+/// The same for the rows that determine the position.
+pub(super) fn better_position_for_row(
+    equations: &mut KeptEquations<'_>,
+    q: &[f64],
+) -> Result<Option<KeptRows>, MotionFault> {
+    if suit_output(equations) || !position_wants_exchange(equations) {
+        return Ok(None);
+    }
+    let (at, old) = (&equations.at, &mut equations.position);
+    better(at, decide_holonomic_rows(at.mechanism, &at.s, q), old)
+}
+
+/// Whether a row of output takes the rows of the surrounding steps without asking for others.
+fn suit_output(equations: &KeptEquations<'_>) -> bool {
+    !GUARDED || equations.have_missed() || are_sound(&equations.velocity)
 }
 
 fn requested_rows_recovered(equations: &mut KeptEquations<'_>) -> bool {

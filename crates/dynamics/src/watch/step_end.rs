@@ -17,8 +17,8 @@ use crate::error::MotionFault;
 use crate::events::Event;
 use crate::guards::GUARDED;
 use crate::limits::{
-    FALLEN, FORESIGHT, JUST_AHEAD, NEARBY, NEAREST, NEAREST_MAX, NEAREST_TOLERANCES, NO_REACTIONS,
-    NO_REACTIONS_MAX, NO_REACTIONS_TOLERANCES, PASSED, SMOOTH, SUSPECT,
+    FALLEN, FORESIGHT, JUST_AHEAD, LEAST_SCALE, NEARBY, NEAREST, NEAREST_MAX, NEAREST_TOLERANCES,
+    NO_REACTIONS, NO_REACTIONS_MAX, NO_REACTIONS_TOLERANCES, PASSED, SMOOTH, SUSPECT,
 };
 use crate::options::{MotionOptions, RowChoice};
 use crate::solve::{KeptEquations, KeptRows};
@@ -104,7 +104,7 @@ impl Watch {
         self.delicate.map(|t| Delicate {
             t,
             slack: (PASSED / self.rtol).max(1.0),
-            least_scale: self.rtol * size,
+            least_scale: LEAST_SCALE * self.rtol * size,
         })
     }
 
@@ -145,6 +145,16 @@ impl Watch {
     /// Whether [`Watch::judge_rows`] has a decision to make for freshly factored rows.
     pub(crate) fn may_exchange(&self, equations: &mut KeptEquations<'_>) -> bool {
         exchange::may_be_due(equations, &self.choice)
+    }
+
+    /// Rows that determine the position of a row of output better than those of the surrounding
+    /// steps.
+    pub(crate) fn position_rows_for_output(
+        &self,
+        equations: &mut KeptEquations<'_>,
+        q: &[f64],
+    ) -> Result<Option<KeptRows>, MotionFault> {
+        exchange::better_position_for_row(equations, q)
     }
 
     /// Rows that are more suitable for a row of output than those of the surrounding steps.

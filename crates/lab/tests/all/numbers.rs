@@ -276,3 +276,28 @@ fn a_short_campaign_finds_nothing() {
     let tally = Tally::of(1, 0, 30, || ());
     assert!(tally.passes(), "\n{}", tally.describe());
 }
+
+/// Mechanisms that a campaign has found, with what was wrong with them.
+#[test]
+fn mechanisms_that_were_wrong_once_are_right() {
+    let found = [
+        (
+            9673,
+            "rows of output took their position from rows that were nearly dependent there",
+        ),
+        (
+            11923,
+            "a number is largest on the way to the displaced datum, not at its end",
+        ),
+        (
+            13056,
+            "a component near zero made steps over a singular pose impossible",
+        ),
+        (14530, "the same, just before the end of the run"),
+    ];
+    for (number, what) in found {
+        let (_, findings) = lab::fuzz::numbers::tally::outcome(1, number);
+        let wrong: Vec<&str> = findings.all.iter().map(|f| f.text.as_str()).collect();
+        assert!(wrong.is_empty(), "{number}: {what}: {wrong:?}");
+    }
+}

@@ -26,8 +26,8 @@ pub(super) struct Displaced<'a> {
 
 impl Displaced<'_> {
     /// The largest changes of numbers from these values on the way to other data. `data` are all
-    /// numbers of the constraints after a share of the displacement; bodies follow in several steps.
-    /// `None` if no pose near the one before satisfies the rows.
+    /// numbers of the constraints after a share of the displacement; bodies follow in several
+    /// steps. `None` if no pose near the one before satisfies the rows.
     pub(super) fn changes(
         &self,
         numbers: &[ReactionNumber],

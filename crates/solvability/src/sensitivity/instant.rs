@@ -195,10 +195,6 @@ impl<'a> Instant<'a> {
         if self.displaced.is_some() && is_curved {
             let mut strongest = Vec::new();
             for (k, (number, slopes)) in numbers.iter().zip(&slopes).enumerate() {
-                let share = changes[k].share();
-                if share.is_nan() || share > FRAGILE {
-                    continue;
-                }
                 self.gradient(number, slopes, &mut gradient)?;
                 strongest.extend(self.strongest((k, &changes[k]), &gradient));
             }

@@ -14,8 +14,8 @@ const MOVED: f64 = 1e-4;
 /// A piece that is smaller than a twentieth of the mechanism is made more accurately.
 const PIECE: f64 = 20.0;
 
-/// Displacement for derivatives, relative to the full one: bodies follow it by its quotient with the
-/// smallest singular value, which has to be far below that value itself.
+/// Displacement for derivatives, relative to the full one: bodies follow it by its quotient with
+/// the smallest singular value, which has to be far below that value itself.
 const SMALL: f64 = 1e-5;
 
 /// The first of the steps of a displacement.
