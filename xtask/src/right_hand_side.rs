@@ -18,6 +18,15 @@ pub(crate) fn instructions() -> Result<String, String> {
 }
 
 fn bench(arguments: &[&str]) -> Result<(), String> {
-    let bench = ["bench", "-p", "bench", "--bench", "right_hand_side", "--"];
+    let bench = [
+        "bench",
+        "-p",
+        "bench",
+        "--features",
+        "faer",
+        "--bench",
+        "right_hand_side",
+        "--",
+    ];
     run(cargo(&root()).args(bench).args(arguments))
 }

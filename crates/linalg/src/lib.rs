@@ -3,7 +3,6 @@
 
 mod dd_matrix;
 mod disjoint_sets;
-#[cfg(feature = "eigen")]
 mod eigen;
 mod equilibrate;
 mod jacobi;
@@ -26,7 +25,6 @@ pub mod powers;
 pub use dd_matrix::DdMatrix;
 pub use disjoint_sets::DisjointSets;
 pub use double_double::Dd;
-#[cfg(feature = "eigen")]
 pub use eigen::{Eigenpair, ZeroEigenvalue, eigenpairs, zero_eigenvalue};
 pub use equilibrate::{Scaling, equilibrate, equilibrate_blocks, equilibrate_sparse};
 pub use jacobi::{SmallSvd, SymmetricEigen, small_svd, symmetric_eigen};

@@ -33,13 +33,25 @@ pub(crate) const ZERO_SQUARED: f64 = 1e-150;
 /// not a number. Test: none, work only.
 pub(crate) const QR_STEPS_EACH: usize = 60;
 
-#[cfg(feature = "eigen")]
 /// Sweeps over rows and columns of a matrix before its eigenvalues at most; three to five are
 /// usual.
 /// Unit: sweeps. Less: units of states cost digits. More: time. Test: `units_do_not_matter`.
 pub(crate) const BALANCINGS: usize = 20;
 
-#[cfg(feature = "eigen")]
+/// Steps of the QR algorithm for one eigenvalue or a pair at most; two to four are usual.
+/// Unit: steps. Less: matrices are refused. More: time, where something does not converge. Test:
+/// `matrices_of_every_kind_have_small_residuals`.
+pub(crate) const FRANCIS_STEPS: usize = 120;
+
+/// Every so many steps without an eigenvalue, shifts are others than the best ones.
+/// Unit: steps. Less: convergence is disturbed. More: permutations take longer. Test:
+/// `matrices_of_every_kind_have_small_residuals`.
+pub(crate) const EXCEPTIONAL_EVERY: usize = 10;
+
+/// Entries of an eigenvector above this are scaled down while it is made.
+/// Unit: 1. Less: work. More: overflow. Test: `matrices_of_every_kind_have_small_residuals`.
+pub(crate) const SUBSTITUTED: f64 = 1e100;
+
 /// A row and its column are balanced if their sum then is below this share.
 /// Unit: share. Less: units of states cost digits. More: sweeps for nothing. Test:
 /// `units_do_not_matter`.
@@ -48,7 +60,7 @@ pub(crate) const BALANCED: f64 = 0.95;
 #[cfg(feature = "faer")]
 /// Smaller dimension from which faer finds singular values: up to about 200 our own kernel is
 /// faster, at 400 it takes 1.4 times as long, at 600 1.5 times (measured by
-/// `cargo run --release -p pfaff-linalg --features faer --example timings`). Our own gives the same
+/// `cargo run --release -p bench --features faer --example timings`). Our own gives the same
 /// bits on every processor, which faer's run-time choice of instructions does not.
 /// Unit: rows or columns. Less: the last bits differ between processors. More: time. Test: none,
 /// work only.

@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &Linearise, console: &Console<'_>) -> Outcome {
     let found = study
         .linearise(arguments.at_time, &options)
         .map_err(|e| source.failure(e))?;
-    let modes = modes(&found);
+    let modes = found.modes();
     let document = LinearisationDocument::new(study.scene.name(), &found, modes.as_deref());
     let written = match &arguments.out {
         Some(path) => {
@@ -55,16 +55,6 @@ pub(crate) fn run(arguments: &Linearise, console: &Console<'_>) -> Outcome {
         return console.document(&document);
     }
     console.print(&(describe(&document) + &written))
-}
-
-#[cfg(feature = "eigen")]
-fn modes(of: &Linearisation) -> Option<Vec<Mode>> {
-    of.modes()
-}
-
-#[cfg(not(feature = "eigen"))]
-fn modes(_: &Linearisation) -> Option<Vec<Mode>> {
-    None
 }
 
 /// Writes all files; returns what was written, in words.

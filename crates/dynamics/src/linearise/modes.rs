@@ -79,7 +79,6 @@ impl Stability {
 
 impl Linearisation {
     /// The modes of A, by their real parts, the largest first. `None` if they are not found.
-    #[cfg(feature = "eigen")]
     #[must_use]
     pub fn modes(&self) -> Option<Vec<Mode>> {
         let pairs = linalg::eigenpairs(&self.a)?;
@@ -116,7 +115,6 @@ impl Linearisation {
     /// Radius of the circle around zero within which rounding of A spreads those of these
     /// eigenvalues that are zero: a Jordan block of k rows spreads to `‖A‖·ε^(1/k)`, which may be
     /// far more than the square root of rounding, and the only eigenvalues that there are.
-    #[cfg(feature = "eigen")]
     fn around_zero(&self, sizes: impl Iterator<Item = f64>) -> f64 {
         let entries = self.a.as_slice().iter();
         let norm = entries.map(|x| x * x).sum::<f64>().sqrt();
@@ -148,7 +146,7 @@ impl Linearisation {
     }
 }
 
-#[cfg(all(test, feature = "eigen"))]
+#[cfg(test)]
 mod tests {
     use linalg::Matrix;
 

@@ -1,5 +1,5 @@
 //! Timings of the kernels against nalgebra and faer, in one run on one machine. Compare ratios, not
-//! absolute values: `cargo run --release -p pfaff-rank --features faer --example timings`.
+//! absolute values: `cargo run --release -p bench --features faer --example timings`.
 #![allow(
     clippy::print_stdout,
     reason = "the output is what this example is for"
