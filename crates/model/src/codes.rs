@@ -1,34 +1,55 @@
-//! Stable codes of errors and warnings, and what each of them means: one table, from which the
-//! command `pfaff explain` and a page of the book are made. A code is never used again for
-//! something else. Each enum of errors gives its codes in `code()`, by a `match` over all variants.
+//! Stable codes of errors and warnings, and what each of them means: one page, `codes/codes.md`,
+//! which the command `pfaff explain` and the book show. A code is never used again for something
+//! else. Each enum of errors gives its codes in `code()`, by a `match` over all variants.
+//!
+//! Below 100 the command and its files, from 100 the text of a scene, from 200 its start and its
+//! rank, from 300 questions, from 400 runs, from 500 sweeps, from 600 files that are imported.
 
-mod table;
+mod entry;
 
 use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-pub use table::TABLE;
+pub use entry::{Entry, Example, entries};
+
+/// The page with all codes, as the book has it.
+pub const PAGE: &str = include_str!("codes/codes.md");
+
+/// Whether a number has a heading on the page, as in `## P0123`.
+const IS_CODE: [bool; 1000] = {
+    const fn digit(byte: u8) -> usize {
+        (byte - b'0') as usize
+    }
+    let page = PAGE.as_bytes();
+    let mut codes = [false; 1000];
+    let mut k = 8;
+    while k < page.len() {
+        if page[k - 8] == b'\n' && page[k - 7] == b'#' && page[k - 4] == b'P' {
+            let [a, b, c] = [digit(page[k - 2]), digit(page[k - 1]), digit(page[k])];
+            codes[100 * a + 10 * b + c] = true;
+        }
+        k += 1;
+    }
+    codes
+};
 
 /// The code of an error or a warning, written as `P0123`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code(u16);
 
 impl Code {
-    /// A code of the table. In a `const` block a code that is missing there does not compile.
+    /// A code of the page. In a `const` block a code that is missing there does not compile.
     ///
     /// # Panics
-    /// If the table has no such code.
+    /// If the page has no such code.
     #[must_use]
     pub const fn new(number: u16) -> Self {
-        let mut k = 0;
-        while k < TABLE.len() {
-            if TABLE[k].code.0 == number {
-                return Self(number);
-            }
-            k += 1;
-        }
-        panic!("a code that is not in the table");
+        assert!(
+            (number as usize) < IS_CODE.len() && IS_CODE[number as usize],
+            "a code that is not on the page"
+        );
+        Self(number)
     }
 
     /// The entry of a text such as `P0123` or `123`.
@@ -36,7 +57,7 @@ impl Code {
     pub fn find(text: &str) -> Option<&'static Entry> {
         let digits = text.trim_start_matches(['P', 'p']);
         let number: u16 = digits.parse().ok()?;
-        TABLE.iter().find(|entry| entry.code.0 == number)
+        entries().iter().find(|entry| entry.code.0 == number)
     }
 }
 
@@ -50,54 +71,4 @@ impl Serialize for Code {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         to.collect_str(self)
     }
-}
-
-/// What a code means.
-#[derive(Clone, Copy, Debug)]
-pub struct Entry {
-    /// The code.
-    pub code: Code,
-    /// What is wrong, in one line.
-    pub title: &'static str,
-    /// What to do.
-    pub advice: &'static str,
-    /// Something that has this code.
-    pub example: Example,
-}
-
-/// Something that has a code.
-#[derive(Clone, Copy, Debug)]
-pub enum Example {
-    /// A scene on standard input of the command `pfaff` with these arguments.
-    Scene(&'static str, &'static str),
-    /// The command `pfaff` with these arguments.
-    Command(&'static str),
-    /// Why no example can be given in a few lines.
-    None(&'static str),
-}
-
-/// The page of the book with all codes.
-#[must_use]
-pub fn page() -> String {
-    let mut page = "# Codes of errors and warnings\n\n\
-        This page is written by `pfaff explain --book`. Each error begins with its code, as in `error[P0102]`, and has \
-        it as `code` in a document; `pfaff explain P0102` shows one entry. A code keeps its meaning.\n"
-        .to_owned();
-    for entry in TABLE {
-        page.push_str(&format!(
-            "\n## {}\n\n{}.\n\n{}\n",
-            entry.code, entry.title, entry.advice
-        ));
-        match entry.example {
-            Example::Scene(arguments, scene) => page.push_str(&format!(
-                "\n`pfaff {arguments}` with this scene:\n\n```text\n{}\n```\n",
-                scene.trim()
-            )),
-            Example::Command(arguments) => {
-                page.push_str(&format!("\nFor example `pfaff {arguments}`.\n"));
-            }
-            Example::None(_) => {}
-        }
-    }
-    page
 }

@@ -1,6 +1,6 @@
 //! `pfaff explain`: what the code of an error means, and what to do.
 
-use pfaff::model::codes::{Code, Entry, Example, TABLE, page};
+use pfaff::model::codes::{Code, Entry, Example, PAGE, entries};
 
 use pfaff::report::documents::CodesDocument;
 
@@ -10,14 +10,14 @@ use crate::output::{Failure, Outcome, wrapped};
 
 pub(crate) fn run(arguments: &Explain, console: &Console<'_>) -> Outcome {
     if arguments.book {
-        return console.print(&page());
+        return console.print(PAGE);
     }
     let Some(text) = &arguments.code else {
         if arguments.json {
-            return console.document(&CodesDocument::new(TABLE));
+            return console.document(&CodesDocument::new(entries()));
         }
         let line = |entry: &Entry| format!("{}  {}\n", entry.code, entry.title);
-        return console.print(&TABLE.iter().map(line).collect::<String>());
+        return console.print(&entries().iter().map(line).collect::<String>());
     };
     let Some(entry) = Code::find(text) else {
         return Err(Failure::input(format!(
