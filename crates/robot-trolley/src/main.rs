@@ -1,11 +1,13 @@
 //! The robot with its trolley of Wojtyra and Frączek (2013), section 4: prints the published
-//! results and draws the published figures, for the dimensions of `robot-trolley.toml`.
+//! results, draws the published figures and writes the report of a run, for the dimensions of
+//! `robot-trolley.toml`.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod figures;
 mod text;
 mod variants;
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -15,11 +17,11 @@ use pfaff::report::OutputDirectory;
 use pfaff::solvability::analyse;
 
 /// The published results for the robot with its trolley: ranks, verdicts, three elimination
-/// variants, figures
+/// variants, figures, and the report of a run
 #[derive(Parser)]
 #[command(version, about)]
 struct Arguments {
-    /// Directory for the figures
+    /// Directory for the figures and the report
     #[arg(long, value_name = "DIR", default_value = "figures")]
     out: PathBuf,
 }
@@ -55,5 +57,11 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     for path in figures::write(mechanism, &start, &variants, &directory)? {
         println!("written: {}", path.display());
     }
+    study.simulate_into(&directory, |_| ControlFlow::Continue(()))?;
+    let report = arguments.out.join("report.html");
+    println!(
+        "report: {} (opens in any browser), with its tables beside it",
+        report.display()
+    );
     Ok(())
 }

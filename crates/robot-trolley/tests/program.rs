@@ -42,6 +42,11 @@ fn the_program_finds_what_was_published() {
     assert_eq!((unique, not_unique), (8, 6), "{text}");
     assert!(text.contains("at 201 of 201 instants"), "{text}");
 
+    let report = std::fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(
+        report.contains("robot-trolley") && text.contains("\nreport: "),
+        "{text}"
+    );
     let figures = text
         .lines()
         .filter_map(|line| line.strip_prefix("written: "));
