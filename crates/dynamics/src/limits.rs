@@ -23,6 +23,11 @@ pub(crate) const SCHUR_FROM: usize = 64;
 /// refinement. More: time. Test: none, work only.
 pub(crate) const FREE_MOST: usize = 16;
 
+/// Without rows, up to so many velocities the null space is kept, for implicit methods.
+/// Unit: velocities. Less: bodies on bushings alone lose implicit methods. More: dense matrices of
+/// hundreds of free bodies. Test: `free_bodies_take_memory_in_proportion`.
+pub(crate) const FREE_DENSE: usize = 1024;
+
 /// From so many kept rows on the dropped ones are compared with them in sums.
 /// Unit: rows. Less: large coefficients may cancel. More: time. Test: none, work only.
 pub(crate) const SUMMED_FROM: usize = 64;

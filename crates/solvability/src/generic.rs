@@ -72,8 +72,8 @@ impl GenericVerdict {
 
 /// Ranks at configurations other than (t, q), which must satisfy the constraints. Returns `None` if
 /// no configuration was found at which the rank is decided (a structure that cannot move has no
-/// others), if there are more than [`ONE_PART`] rows, or if t and q are not a configuration of this
-/// mechanism.
+/// others), if there are no rows or more than [`ONE_PART`], or if t and q are not a configuration
+/// of this mechanism.
 #[must_use]
 pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     Some(Comparison::of(mechanism, t, q)?.found)
@@ -111,7 +111,8 @@ struct DecidedRows {
 impl Comparison {
     fn of(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Self> {
         crate::state::check_configuration(mechanism, t, q).ok()?;
-        if mechanism.layout().rows() > ONE_PART {
+        // Without rows there is nothing to compare.
+        if !(1..=ONE_PART).contains(&mechanism.layout().rows()) {
             return None;
         }
         let compared = compared_rows(mechanism, t, q)?;

@@ -519,3 +519,20 @@ fn too_many_components_stay_one() {
     let fallen = rows.last().expect("there are rows").1[3 * 40 + 1];
     assert!((fallen + 0.5 * 9.81).abs() < 1e-12, "{fallen}");
 }
+
+/// Free bodies that are too many for threads of their own are solved as one: no matrix of all their
+/// velocities is made.
+#[test]
+fn free_bodies_take_memory_in_proportion() {
+    let of = |count: usize| {
+        let free = scene(|d| {
+            let bodies = (0..count).map(|k| body(&format!("b{k}"), [k as f64, 0.0]));
+            d.bodies.extend(bodies);
+        });
+        free.memory()
+    };
+    let (few, many) = (of(400), of(4000));
+    assert!(many < 11 * few, "{few} and {many} bytes");
+    // Some hundred numbers of eight bytes for each of the velocities.
+    assert!(many < 4000 * 3 * 256 * 8, "{many} bytes");
+}

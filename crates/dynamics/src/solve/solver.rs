@@ -15,7 +15,7 @@ use model::{Mechanism, System};
 
 use super::matrix::{KeptMatrix, pattern_of};
 use super::units::mass_spread;
-use crate::limits::{FREE_MOST, NULL_SPACE_MOST, REFINED_MOST, SCHUR_FROM, VECTORS};
+use crate::limits::{FREE_DENSE, FREE_MOST, NULL_SPACE_MOST, REFINED_MOST, SCHUR_FROM, VECTORS};
 
 /// Kept rows and their factors.
 #[derive(Clone)]
@@ -70,9 +70,12 @@ macro_rules! either {
 /// Whether this number of kept rows of C of a mechanism of this size (m) is solved through the
 /// Schur complement, and so are its kept rows of Φq: if there are many of them that leave many
 /// motions free, every coordinate has a mass, and solutions need no refinement because of different
-/// masses; or if there is too much of both for the null space.
+/// masses; or if there is too much of both for the null space. Many free motions without rows leave
+/// nothing to eliminate.
 pub(crate) fn is_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
-    mechanism.layout().n_v.saturating_sub(rows) > FREE_MOST && allows_schur(mechanism, size, rows)
+    let free = mechanism.layout().n_v.saturating_sub(rows);
+    let is_free = || rows == 0 && free > FREE_DENSE && mechanism.mass().iter().all(|&m| m > 0.0);
+    free > FREE_MOST && (is_free() || allows_schur(mechanism, size, rows))
 }
 
 /// Whether the Schur complement is accurate enough for this number of rows of a mechanism of this
@@ -92,10 +95,11 @@ pub(crate) fn memory(mechanism: &Mechanism, size: f64, levels: [&[usize]; 2]) ->
         let c = pattern_of(mechanism, kept);
         let rows = levels[0].len();
         let mut factors = 0;
-        if allows_schur(mechanism, size, rows) {
+        let is_schur = is_schur(mechanism, size, rows);
+        if is_schur || allows_schur(mechanism, size, rows) {
             factors += structure(mechanism, &c).bytes();
         }
-        if !is_schur(mechanism, size, rows) {
+        if !is_schur {
             factors += KeptRowSaddle::bytes(&c);
         }
         factors + KeptMatrix::bytes(c.nnz())
@@ -279,10 +283,13 @@ impl Solver {
         }
     }
 
-    /// Writes a basis of the motions that the factored rows allow; empty for the Schur complement.
+    /// Writes a basis of the motions that the factored rows allow; empty for the Schur complement,
+    /// and without rows, which cannot become dependent.
     pub(super) fn null_frame(&self, frame: &mut Vec<f64>) {
         frame.clear();
-        if let Some(it) = self.own() {
+        if let Some(it) = self.own()
+            && self.rows.c.nrows() > 0
+        {
             frame.resize(it.frame(), 0.0);
             it.saddle.null_frame(frame);
         }
