@@ -40,7 +40,9 @@ const MOST_PIXELS: f64 = 2.5e7;
 #[non_exhaustive]
 pub enum PngError {
     /// Painting is not part of this program.
-    #[error("this program is built without the feature `png`: take SVG, or build it with it")]
+    #[error(
+        "this program is built without the feature `png`: take SVG, or install it with `--features png`"
+    )]
     Unavailable,
     /// The scale is not a number, or not one for a picture.
     #[error(
