@@ -1,5 +1,5 @@
 //! `THIRD-PARTY.md`: the crates of others that the command `pfaff` links, and its fonts, with their
-//! licences and the texts of these, and the same of the package for Python. Written from
+//! licences and the texts of these, with all features, and the same of the package for Python. From
 //! `cargo tree`, which resolves features as a build does, and from the sources of the crates.
 //!
 //! cargo-about and cargo-deny do more, but they have to be installed first; this needs what builds
@@ -200,7 +200,8 @@ impl Product {
         network: Network,
     ) -> Result<BTreeSet<Package>, String> {
         let mut tree = cargo(&self.folder());
-        tree.args(["tree", "--locked", "-p", self.package, "--prefix", "none"]);
+        tree.args(["tree", "--locked", "-p", self.package, "--all-features"]);
+        tree.args(["--prefix", "none"]);
         tree.args([
             "--target",
             target,
