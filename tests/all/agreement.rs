@@ -246,7 +246,7 @@ fn a_leaning_row_agrees_to_the_rounding_of_what_it_leans_to() {
     for (lean, agrees) in [(0.0, true), (1e-17, true), (1e-13, true), (1e-7, false)] {
         // One row is kept, whatever the matrix says.
         let c = linalg::Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0]]);
-        let decision = rank::decide(&c, 0.0).expect("finite");
+        let decision = rank::decide(&c, rank::Accuracy::Rounding).expect("finite");
         let found = rows(lean).multipliers(&decision);
         assert_eq!(found.is_ok(), agrees, "{lean:e}: {found:?}");
     }

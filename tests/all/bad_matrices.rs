@@ -13,7 +13,7 @@ const SEED: u64 = 5;
 /// Both ways to compute verdicts: for data with an uncertainty, and for exact data.
 fn both(c: &Matrix) -> [Result<(), RankError>; 2] {
     [
-        Solvability::of(c, 0.0).map(|_| ()),
+        Solvability::of(c, rank::Accuracy::Rounding).map(|_| ()),
         Solvability::of_exact(c).map(|_| ()),
     ]
 }
@@ -38,7 +38,8 @@ fn entries_that_are_no_numbers_are_named() {
 #[test]
 fn residuals_that_are_none_are_named() {
     for bad in [f64::NAN, f64::INFINITY, -1.0] {
-        let error = Solvability::of(&Matrix::identity(2), bad).expect_err("no residual");
+        let error = Solvability::of(&Matrix::identity(2), rank::Accuracy::Absolute(bad))
+            .expect_err("no residual");
         assert!(matches!(error, RankError::Uncertainty { .. }), "{error}");
     }
 }
@@ -102,7 +103,10 @@ fn empty_and_overlapping_groups() {
 #[test]
 fn questions_that_cannot_be_answered_are_named() {
     let c = Matrix::identity(2);
-    for s in [Solvability::of(&c, 0.0), Solvability::of_exact(&c)] {
+    for s in [
+        Solvability::of(&c, rank::Accuracy::Rounding),
+        Solvability::of_exact(&c),
+    ] {
         let s = s.expect("C is finite");
         let missing = QueryError::RowOutOfRange { row: 2, rows: 2 };
         assert_eq!(s.row(2), Err(missing.clone()));

@@ -150,7 +150,8 @@ fn rows() {
         // Rounding errors as large as those of recombined rows are taken as noise in both.
         let noise = 1e-14;
         let judged = |c: &Matrix, groups: &[Vec<usize>]| -> Vec<&str> {
-            let solvability = Solvability::of(c, noise).expect("C is finite");
+            let solvability =
+                Solvability::of(c, rank::Accuracy::Absolute(noise)).expect("C is finite");
             assert!(solvability.decision().is_decided());
             let word = |rows: &Vec<usize>| {
                 let judgement = solvability.group(rows.iter().copied());

@@ -226,7 +226,7 @@ fn admissible_pairs(p: &Prepared, t: f64, q: &[f64]) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
     for a in 0..22 {
         for b in a + 1..22 {
-            if rank::decide_dropping(&c, 0.0, &[a, b]).is_ok() {
+            if rank::decide_dropping(&c, rank::Accuracy::Rounding, &[a, b]).is_ok() {
                 pairs.push([a + 1, b + 1]);
             }
         }
@@ -324,7 +324,8 @@ fn steered_edges_at_a_right_angle_split_the_circuits() {
         let (c, _) = solvability_at(&p, 1.0, &q);
         let (w3, w4) = (19, 20);
         let others: Vec<usize> = (0..22).filter(|&i| i != w4).collect();
-        let without_w4 = Solvability::of(&c.select_rows(&others), 0.0).expect("C is finite");
+        let without_w4 = Solvability::of(&c.select_rows(&others), rank::Accuracy::Rounding)
+            .expect("C is finite");
         assert_eq!(without_w4.row(w3).expect("a row").verdict.word(), "unique");
         assert_eq!(admissible_pairs(&p, 1.0, &q), {
             let mut pairs = product(&[3, 5, 18, 19]);
@@ -340,7 +341,7 @@ fn solvability_at(p: &Prepared, t: f64, q: &[f64]) -> (linalg::Matrix, Solvabili
     p.mechanism.pose(t, q, &mut s);
     p.mechanism.c(&mut s);
     let c = p.mechanism.layout().dense(&s);
-    let solvability = Solvability::of(&c, 0.0).expect("C is finite");
+    let solvability = Solvability::of(&c, rank::Accuracy::Rounding).expect("C is finite");
     (c, solvability)
 }
 

@@ -75,8 +75,13 @@ fn rank_decision(bencher: Bencher<'_, '_>) {
     p.mechanism.pose(0.0, &p.q, &mut s);
     p.mechanism.c(&mut s);
     let c = p.mechanism.layout().dense(&s);
-    assert_eq!(rank::decide(&c, 0.0).expect("finite").rank, 20);
-    bencher.bench_local(|| rank::decide(black_box(&c), 0.0));
+    assert_eq!(
+        rank::decide(&c, rank::Accuracy::Rounding)
+            .expect("finite")
+            .rank,
+        20
+    );
+    bencher.bench_local(|| rank::decide(black_box(&c), rank::Accuracy::Rounding));
 }
 
 /// The whole analysis: ranks, fourteen verdicts, directions, dependencies.

@@ -59,15 +59,20 @@ fn certify_exact(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn certify_within(bencher: Bencher<'_, '_>) {
     let c = DdMatrix::from(&matrix().0);
-    assert!(rank::certify_within(&c, 1e-15).is_ok_and(|d| d.rank == 20 && d.is_decided()));
-    bencher.bench_local(|| rank::certify_within(black_box(&c), 1e-15));
+    assert!(
+        rank::certify_within(&c, rank::Accuracy::Absolute(1e-15))
+            .is_ok_and(|d| d.rank == 20 && d.is_decided())
+    );
+    bencher.bench_local(|| rank::certify_within(black_box(&c), rank::Accuracy::Absolute(1e-15)));
 }
 
 /// Verdicts of all rows and groups, computed only from the matrix.
 #[divan::bench]
 fn verdicts_from_the_matrix(bencher: Bencher<'_, '_>) {
     let (c, groups) = matrix();
-    bencher.bench_local(|| Solvability::of(black_box(&c), 0.0).map(|s| unique(&s, &groups)));
+    bencher.bench_local(|| {
+        Solvability::of(black_box(&c), rank::Accuracy::Rounding).map(|s| unique(&s, &groups))
+    });
 }
 
 /// The verdict of every reaction of the robot, with its certificate and the smallest error of the

@@ -96,7 +96,7 @@ fn spectrum(n: usize) {
         black_box(singular_values(black_box(&a)));
     });
     let decision = microseconds(|| {
-        black_box(decide(black_box(&a), 0.0).expect("finite"));
+        black_box(decide(black_box(&a), rank::Accuracy::Rounding).expect("finite"));
     });
     let dense = DMatrix::from_row_slice(n, n, a.as_slice());
     let nalgebra = microseconds(|| {

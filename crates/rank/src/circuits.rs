@@ -54,7 +54,7 @@ pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
 /// use rank::{decide_dropping, short_circuits};
 /// // Rows 2 and 3 are equal; each is the sum of rows 0 and 1.
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]]);
-/// let decision = decide_dropping(&c, 0.0, &[2, 3]).unwrap();
+/// let decision = decide_dropping(&c, rank::Accuracy::Rounding, &[2, 3]).unwrap();
 /// let rows: Vec<_> = short_circuits(&decision).into_iter().map(|c| c.rows).collect();
 /// assert_eq!(rows, [vec![2, 3], vec![0, 1, 2]]);
 /// ```

@@ -13,10 +13,12 @@
 //! a certificate: `exact` takes the entries as exact, `within` uses double-double and the
 //! uncertainty of the data.
 
+mod accuracy;
 mod bound;
 mod certificate;
 mod clear;
 mod coefficient;
+mod decide;
 mod exact;
 mod explicit;
 mod graded;
@@ -26,20 +28,20 @@ mod perturbation;
 mod spectrum;
 #[cfg(test)]
 mod tests;
-mod uncertainty;
 mod within;
 
 use crate::limits::{CLEARANCE, HIDDEN, NEARLY_SINGULAR, NOISE_FACTOR, NOT_ROUNDING};
 use crate::strong_basis::{self, Basis};
 use linalg::{Matrix, PivotedQr, RowBasis, Scaling, kernels, singular_values};
 
+pub use accuracy::Accuracy;
 pub use certificate::{Certificate, Grounds, NearlyRedundant};
 pub use coefficient::{CoefficientReading, Readings};
+pub use decide::decide;
 pub use exact::certify_exact;
 pub use modular::ExactNullSpace;
 pub use outcome::{Doubt, Evidence, RankDecision, RankError, RankStatus};
 pub use spectrum::Spectrum;
-pub use uncertainty::Uncertainty;
 pub use within::{RankReading, certify_rank, certify_within};
 
 pub(crate) use clear::{Size, independent, size};
@@ -48,40 +50,6 @@ pub use explicit::{
     KeptRowsError, decide_dropping, decide_keeping, dropping_of_rank, with_dropped,
 };
 
-/// Decides the rank of C, chooses the rows to keep, and expresses the others in terms of them.
-///
-/// | argument | shape | meaning |
-/// | --- | --- | --- |
-/// | `c` | m×n | constraint matrix; `0×n` and `m×0` have rank 0 |
-/// | `uncertainty` | – or m×n | uncertainty of the entries beyond rounding; see [`Uncertainty`] |
-///
-/// ```
-/// use linalg::Matrix;
-/// use rank::{RankStatus, decide};
-/// // The third constraint is the sum of the other two.
-/// let c = Matrix::from_rows(&[[1.0, 0.0, 2.0], [0.0, 1.0, 0.0], [1.0, 1.0, 2.0]]);
-/// let decision = decide(&c, 0.0)?;
-/// assert_eq!((decision.rank, decision.redundancy), (2, 1));
-/// assert_eq!(decision.status, RankStatus::Decided);
-/// assert!(decision.evidence.gap > 1e15);
-/// # Ok::<(), rank::RankError>(())
-/// ```
-///
-/// # Errors
-/// - [`RankError::NonFinite`]: an entry is NaN or infinite.
-/// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN,
-///   infinite or of another shape.
-///
-/// Source: rank rule and scaling as in the module docs; rows by pivoted QR of `(D_r·C·D_c)ᵀ` and
-/// strong exchanges (Gu and Eisenstat 1996).
-pub fn decide<'a>(
-    c: &Matrix,
-    uncertainty: impl Into<Uncertainty<'a>>,
-) -> Result<RankDecision, RankError> {
-    let (scaling, scaled, reading) = read(c, uncertainty.into())?;
-    Ok(reading.with_strong_basis(scaling, &scaled))
-}
-
 /// Like [`decide`], if the rank is known otherwise: data within a stated tolerance may have a lower
 /// rank than the matrix. Dropped rows then depend on the kept ones only nearly.
 ///
@@ -89,7 +57,7 @@ pub fn decide<'a>(
 /// As [`decide`].
 pub fn decide_of_rank<'a>(
     c: &Matrix,
-    uncertainty: impl Into<Uncertainty<'a>>,
+    uncertainty: impl Into<Accuracy<'a>>,
     rank: usize,
 ) -> Result<RankDecision, RankError> {
     let (scaling, scaled, reading) = read(c, uncertainty.into())?;
@@ -104,7 +72,7 @@ pub fn decide_of_rank<'a>(
 /// use linalg::Matrix;
 /// use rank::promising_rows;
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [2.0, 0.0], [0.0, 3.0]]);
-/// assert_eq!(promising_rows(&c, 0.0)?.len(), 2);
+/// assert_eq!(promising_rows(&c, rank::Accuracy::Rounding)?.len(), 2);
 /// # Ok::<(), rank::RankError>(())
 /// ```
 ///
@@ -112,7 +80,7 @@ pub fn decide_of_rank<'a>(
 /// As [`decide`].
 pub fn promising_rows<'a>(
     c: &Matrix,
-    uncertainty: impl Into<Uncertainty<'a>>,
+    uncertainty: impl Into<Accuracy<'a>>,
 ) -> Result<Vec<usize>, RankError> {
     check_finite(c)?;
     let (scaling, spread) = uncertainty.into().equilibrate(c)?;
@@ -132,7 +100,7 @@ struct Reading {
 }
 
 /// Checks the input, equilibrates, and reads the rank.
-fn read(c: &Matrix, uncertainty: Uncertainty<'_>) -> Result<(Scaling, Matrix, Reading), RankError> {
+fn read(c: &Matrix, uncertainty: Accuracy<'_>) -> Result<(Scaling, Matrix, Reading), RankError> {
     check_finite(c)?;
     let (scaling, spread) = uncertainty.equilibrate(c)?;
     let uncertainty = spread.largest;

@@ -95,7 +95,7 @@ impl From<Unclear> for DeletionError {
 /// use rank::{count_deletions, decide, deletions};
 /// // Row 2 is the sum of rows 0 and 1, row 4 is twice row 3.
 /// let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 2.0]]);
-/// let decision = decide(&c, 0.0)?;
+/// let decision = decide(&c, rank::Accuracy::Rounding)?;
 /// assert_eq!(count_deletions(&decision), Ok(6)); // one of three, one of two
 /// assert_eq!(deletions(&decision, 3).unwrap(), [[0, 3], [0, 4], [1, 3]]);
 /// # Ok::<(), rank::RankError>(())

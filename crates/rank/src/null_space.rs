@@ -25,7 +25,7 @@ pub struct Components {
 /// use linalg::Matrix;
 /// use rank::{decide, dependencies};
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [0.5, 0.25]]);
-/// let z = dependencies(&decide(&c, 0.0)?);
+/// let z = dependencies(&decide(&c, rank::Accuracy::Rounding)?);
 /// assert_eq!(z, Matrix::from_rows(&[[-0.5], [-0.25], [1.0]]));
 /// # Ok::<(), rank::RankError>(())
 /// ```
@@ -57,7 +57,7 @@ pub fn support_tolerance(decision: &RankDecision) -> f64 {
 /// use linalg::Matrix;
 /// use rank::{components, decide};
 /// let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [3.0, 0.0, 0.0], [1.0, 1.0, 1.0]]);
-/// let found = components(&decide(&c, 0.0)?);
+/// let found = components(&decide(&c, rank::Accuracy::Rounding)?);
 /// assert_eq!(found.coupled, [[0, 2]]);
 /// assert_eq!(found.coloops, [1, 3]);
 /// # Ok::<(), rank::RankError>(())
@@ -209,7 +209,7 @@ mod tests {
 
     #[test]
     fn circuits_by_hand() {
-        let decision = decide(&grouped(), 0.0).unwrap();
+        let decision = decide(&grouped(), crate::Accuracy::Rounding).unwrap();
         let found = circuits(&decision);
         let rows: Vec<_> = found.iter().map(|c| c.rows.clone()).collect();
         assert_eq!(rows.len(), 3);
@@ -231,7 +231,7 @@ mod tests {
     #[test]
     fn bases_annihilate_the_rows_they_belong_to() {
         let c = grouped();
-        let decision = decide(&c, 0.0).unwrap();
+        let decision = decide(&c, crate::Accuracy::Rounding).unwrap();
         let scaled = decision.scaling.apply(&c);
         let z = orthonormal(&decision);
         approx::assert_abs_diff_eq!(
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn full_rank_has_no_dependencies() {
-        let decision = decide(&Matrix::identity(3), 0.0).unwrap();
+        let decision = decide(&Matrix::identity(3), crate::Accuracy::Rounding).unwrap();
         assert_eq!(orthonormal(&decision), Matrix::zeros(3, 0));
         assert!(circuits(&decision).is_empty());
         assert_eq!(components(&decision).coloops, [0, 1, 2]);
@@ -267,7 +267,9 @@ mod tests {
                 _ => f64::from(u8::from(i == j)),
             })
         };
-        let decide = |x: f64| crate::decide_dropping(&matrix(x), 1e-12, &[16]).unwrap();
+        let decide = |x: f64| {
+            crate::decide_dropping(&matrix(x), crate::Accuracy::Absolute(1e-12), &[16]).unwrap()
+        };
         let noise = decide(0.0).row_noise(15);
         for (roundings, is_in) in [(0.5, false), (2.0, false), (5.0, true)] {
             let decision = decide(roundings * noise);

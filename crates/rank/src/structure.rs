@@ -26,7 +26,7 @@ mod tests;
 
 use std::ops::Range;
 
-use crate::{RankError, Uncertainty};
+use crate::{Accuracy, RankError};
 use linalg::Matrix;
 
 use incidence::Incidence;
@@ -80,7 +80,7 @@ pub struct Structure {
 ///     let rows = rows.collect();
 ///     RowGroup { rows, ground }
 /// });
-/// let found = structure(&c, 0.0, &groups, &[0..1, 1..2])?;
+/// let found = structure(&c, rank::Accuracy::Rounding, &groups, &[0..1, 1..2])?;
 /// assert_eq!(found.groups, [Settled::Open(0), Settled::Open(0), Settled::Peeled]);
 /// assert_eq!(found.open[0].rows, [0, 1]);
 /// # Ok::<(), rank::RankError>(())
@@ -95,7 +95,7 @@ pub struct Structure {
 ///   infinite or of another shape.
 pub fn structure<'a>(
     c: &Matrix,
-    uncertainty: impl Into<Uncertainty<'a>>,
+    uncertainty: impl Into<Accuracy<'a>>,
     groups: &[RowGroup],
     blocks: &[Range<usize>],
 ) -> Result<Structure, RankError> {

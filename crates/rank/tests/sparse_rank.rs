@@ -52,7 +52,11 @@ fn grids_of_welded_bodies() {
 fn kept_rows_are_as_many_and_independent() {
     let known = chain(12);
     let found = decide_sparse(&known.c, 0.0, &known.bodies, Sketch::default()).expect("finite");
-    let kept = rank::decide(&known.c.select_rows(&found.kept).dense(), 0.0).expect("finite");
+    let kept = rank::decide(
+        &known.c.select_rows(&found.kept).dense(),
+        rank::Accuracy::Rounding,
+    )
+    .expect("finite");
     assert_eq!((kept.rank, kept.redundancy), (found.rank, 0));
     assert!(kept.is_decided());
     assert_eq!(found.dropped.len(), known.redundancy);
@@ -97,7 +101,7 @@ fn order_and_units_do_not_matter() {
         if decades > 3 && !found.is_decided() {
             // The dense code does not either: equilibration cannot distinguish such units from such
             // sizes.
-            let dense = rank::decide(&c.dense(), 0.0).expect("finite");
+            let dense = rank::decide(&c.dense(), rank::Accuracy::Rounding).expect("finite");
             assert!(!dense.is_decided());
             continue;
         }

@@ -127,7 +127,7 @@ impl<'a> Rows<'a> {
             source,
         };
         if self.uncertain.c.first_non_finite().is_some() {
-            return rank::decide(&self.uncertain.c, 0.0).map_err(failed);
+            return rank::decide(&self.uncertain.c, rank::Accuracy::Rounding).map_err(failed);
         }
         let question = self.question();
         let Reading {

@@ -11,7 +11,7 @@
 //! space, up to the scaling of rows.
 
 use linalg::{Matrix, PivotedQr};
-use rank::{ExactNullSpace, RankDecision, RankError, Uncertainty};
+use rank::{Accuracy, ExactNullSpace, RankDecision, RankError};
 
 use crate::verdict::Judgement;
 
@@ -33,7 +33,7 @@ pub use error::QueryError;
 /// use solvability::{Solvability, Verdict};
 /// // Rows 0 and 1 are parallel; row 2 is independent of them.
 /// let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 1.0]]);
-/// let s = Solvability::of(&c, 0.0)?;
+/// let s = Solvability::of(&c, rank::Accuracy::Rounding)?;
 /// assert_eq!((s.decision().rank, s.decision().redundancy), (2, 1));
 /// assert_eq!(s.row(0)?.verdict, Verdict::NotUnique);
 /// assert_eq!(s.row(2)?.verdict, Verdict::Unique);
@@ -54,7 +54,7 @@ impl Solvability {
     ///
     /// # Errors
     /// If an entry or the uncertainty is not finite.
-    pub fn of<'a>(c: &Matrix, uncertainty: impl Into<Uncertainty<'a>>) -> Result<Self, RankError> {
+    pub fn of<'a>(c: &Matrix, uncertainty: impl Into<Accuracy<'a>>) -> Result<Self, RankError> {
         Ok(Self::from_decision(c, rank::decide(c, uncertainty)?))
     }
 

@@ -83,7 +83,7 @@ fn short_circuits_are_the_shortest_basis_of_all_circuits() {
     for seed in 1..=300 {
         let rows = integer_rows(seed, 4 + seed as usize % 6, 2 + seed as usize % 4);
         let c = matrix(&rows);
-        let decision = decide(&c, 0.0).unwrap();
+        let decision = decide(&c, crate::Accuracy::Rounding).unwrap();
         assert_eq!(decision.rank, exact_rank(&rows), "seed {seed}");
         redundancies[decision.redundancy] += 1;
         let exact = all_circuits(&rows);
@@ -104,7 +104,7 @@ fn short_circuits_are_the_shortest_basis_of_all_circuits() {
         assert!(z.product(&c).max_abs() < 1e-12, "seed {seed}");
         assert_eq!(found.len(), decision.redundancy);
         assert_eq!(
-            decide(&z, 0.0).unwrap().rank,
+            decide(&z, crate::Accuracy::Rounding).unwrap().rank,
             decision.redundancy,
             "seed {seed}"
         );
@@ -184,7 +184,7 @@ fn exact_dependency(rows: &[Vec<i128>], circuit: &[usize]) -> Vec<i128> {
 #[test]
 fn a_component_with_too_many_circuits_falls_back() {
     let c = Matrix::from_fn(30, 15, |i, j| ((i * i + 7 * j * j + i * j) as f64).sin());
-    let decision = decide(&c, 0.0).unwrap();
+    let decision = decide(&c, crate::Accuracy::Rounding).unwrap();
     assert_eq!(decision.redundancy, 15);
     let found = short_circuits(&decision);
     assert_eq!(found.len(), 15);
@@ -196,7 +196,7 @@ fn a_component_with_too_many_circuits_falls_back() {
 #[test]
 fn vectors_have_to_span_what_a_circuit_vanishes_on() {
     let rows = [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 2.0], [2.0, 1.0]];
-    let decision = decide(&Matrix::from_rows(&rows), 0.0).unwrap();
+    let decision = decide(&Matrix::from_rows(&rows), crate::Accuracy::Rounding).unwrap();
     let all: Vec<usize> = (0..rows.len()).collect();
     let dual = Dual::new(&decision, &Support::new(&decision), &all);
     for (apart, is_found) in [(1e-3, true), (1e-5, false)] {

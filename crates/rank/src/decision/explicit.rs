@@ -3,7 +3,7 @@
 //! A list D of dropped rows is admissible iff `|D| = p` and the other rows have full rank r;
 //! equivalently the rows D of a left null space basis Z form a nonsingular block.
 
-use super::{RankDecision, RankError, Reading, Uncertainty, read, required};
+use super::{Accuracy, RankDecision, RankError, Reading, read, required};
 use crate::strong_basis::{Basis, complement};
 use linalg::{Matrix, RowBasis, Scaling, singular_values};
 
@@ -62,10 +62,10 @@ pub enum KeptRowsError {
 /// use linalg::Matrix;
 /// use rank::{KeptRowsError, decide_dropping};
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [0.0, 3.0]]);
-/// let decision = decide_dropping(&c, 0.0, &[1])?;
+/// let decision = decide_dropping(&c, rank::Accuracy::Rounding, &[1])?;
 /// assert_eq!(decision.kept, [0, 2]);
 /// // Row 0 is in no dependency.
-/// let refused = decide_dropping(&c, 0.0, &[0]).unwrap_err();
+/// let refused = decide_dropping(&c, rank::Accuracy::Rounding, &[0]).unwrap_err();
 /// assert!(matches!(refused, KeptRowsError::Dependent { .. }));
 /// # Ok::<(), KeptRowsError>(())
 /// ```
@@ -77,7 +77,7 @@ pub enum KeptRowsError {
 /// - [`KeptRowsError::Dependent`]: the remaining rows do not have full rank.
 pub fn decide_dropping<'a>(
     c: &Matrix,
-    uncertainty: impl Into<Uncertainty<'a>>,
+    uncertainty: impl Into<Accuracy<'a>>,
     dropped: &[usize],
 ) -> Result<RankDecision, KeptRowsError> {
     let dropped = ascending(dropped, c.nrows())?;
@@ -91,7 +91,7 @@ pub fn decide_dropping<'a>(
 /// As [`decide_dropping`].
 pub fn dropping_of_rank<'a>(
     c: &Matrix,
-    uncertainty: impl Into<Uncertainty<'a>>,
+    uncertainty: impl Into<Accuracy<'a>>,
     dropped: &[usize],
     rank: usize,
 ) -> Result<RankDecision, KeptRowsError> {
@@ -107,7 +107,7 @@ pub fn dropping_of_rank<'a>(
 /// use linalg::Matrix;
 /// use rank::{decide, with_dropped};
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [0.0, 3.0]]);
-/// let decision = decide(&c, 0.0)?;
+/// let decision = decide(&c, rank::Accuracy::Rounding)?;
 /// let other = with_dropped(&decision, &c, &[1])?;
 /// assert_eq!((other.rank, other.kept), (2, vec![0, 2]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -137,7 +137,7 @@ pub fn with_dropped(
 /// As [`decide_dropping`].
 pub fn decide_keeping<'a>(
     c: &Matrix,
-    uncertainty: impl Into<Uncertainty<'a>>,
+    uncertainty: impl Into<Accuracy<'a>>,
     kept: &[usize],
 ) -> Result<RankDecision, KeptRowsError> {
     let kept = ascending(kept, c.nrows())?;
@@ -146,7 +146,7 @@ pub fn decide_keeping<'a>(
 
 fn decide_partition(
     c: &Matrix,
-    uncertainty: Uncertainty<'_>,
+    uncertainty: Accuracy<'_>,
     kept: Vec<usize>,
     rank: Option<usize>,
 ) -> Result<RankDecision, KeptRowsError> {

@@ -2,7 +2,7 @@
 //! sizes the uncertainty of the large part may exceed the entries of the small part, and one
 //! tolerance for all rows would treat small coefficients as zero.
 
-use super::{RankDecision, Uncertainty};
+use super::{Accuracy, RankDecision};
 use linalg::{Matrix, PivotedQr, kernels};
 
 /// Bounds on the norms of the rows of `δ[−T̃, I]`, m values, to first order in the uncertainty of
@@ -11,7 +11,7 @@ use linalg::{Matrix, PivotedQr, kernels};
 pub(super) fn row_noise(
     decision: &RankDecision,
     c: &Matrix,
-    known: Uncertainty<'_>,
+    known: Accuracy<'_>,
     inverse: Option<Matrix>,
 ) -> Vec<f64> {
     let mut noise = vec![0.0; c.nrows()];

@@ -83,7 +83,7 @@ fn planted_ranks_are_never_wrong_and_seldom_undecided() {
         let (m, n) = (1 + numbers.below(40), 1 + numbers.below(40));
         let r = numbers.below(m.min(n) + 1);
         let c = planted(&mut numbers, m, n, r);
-        let decision = decide(&c, 0.0).unwrap();
+        let decision = decide(&c, crate::Accuracy::Rounding).unwrap();
         if !decision.is_decided() {
             undecided += 1;
             continue;
@@ -113,7 +113,7 @@ fn sizes_1e_minus_8_and_1e_plus_8_in_one_model() {
         c.row_mut(i)[..12].copy_from_slice(small.row(i));
         c.row_mut(12 + i)[12..].copy_from_slice(large.row(i));
     }
-    let decision = decide(&c, 0.0).unwrap();
+    let decision = decide(&c, crate::Accuracy::Rounding).unwrap();
     assert_eq!((decision.rank, decision.is_decided()), (22, true));
     assert!(decision.evidence.gap > 1e12, "{:e}", decision.evidence.gap);
     // Without scaling, the textbook tolerance loses rows.
@@ -123,7 +123,7 @@ fn sizes_1e_minus_8_and_1e_plus_8_in_one_model() {
 #[test]
 fn parallel_cranks_lose_another_rank_when_flat() {
     for (theta, rank) in [(0.7, 11), (-0.3, 11), (0.0, 10)] {
-        let decision = decide(&parallel_cranks(1.0, theta), 0.0).unwrap();
+        let decision = decide(&parallel_cranks(1.0, theta), crate::Accuracy::Rounding).unwrap();
         assert_eq!(
             (decision.rank, decision.is_decided()),
             (rank, true),
@@ -131,7 +131,7 @@ fn parallel_cranks_lose_another_rank_when_flat() {
         );
     }
     // At a small angle σ₁₁ is proportional to it: undecided between the readings, never wrong.
-    let near = decide(&parallel_cranks(1.0, 1e-13), 0.0).unwrap();
+    let near = decide(&parallel_cranks(1.0, 1e-13), crate::Accuracy::Rounding).unwrap();
     assert!(
         matches!(
             near.status,
@@ -173,7 +173,10 @@ fn reading_does_not_depend_on_order_or_units() {
             .collect();
         let other = Matrix::from_fn(m, n, |i, j| c[(order[i], j)] * units[i] * units[m + j]);
 
-        let (a, b) = (decide(&c, 0.0).unwrap(), decide(&other, 0.0).unwrap());
+        let (a, b) = (
+            decide(&c, crate::Accuracy::Rounding).unwrap(),
+            decide(&other, crate::Accuracy::Rounding).unwrap(),
+        );
         assert!(a.is_decided() && b.is_decided());
         assert_eq!(a.rank, b.rank);
         assert_eq!(a.rank, nalgebra_rank(&c, 1e-10));
@@ -194,7 +197,7 @@ fn reading_does_not_depend_on_order_or_units() {
 #[test]
 fn coloops_by_deletion() {
     let c = parallel_cranks(1.0, 0.7);
-    let found = components(&decide(&c, 0.0).unwrap());
+    let found = components(&decide(&c, crate::Accuracy::Rounding).unwrap());
     for i in 0..12 {
         let others: Vec<usize> = (0..12).filter(|&l| l != i).collect();
         let lowers = nalgebra_rank(&c.select_rows(&others), 1e-10) < 11;
@@ -217,12 +220,15 @@ fn admissible_pairs_by_brute_force() {
             for j in 0..i {
                 let kept: Vec<usize> = (0..6).filter(|&l| l != i && l != j).collect();
                 let admissible = nalgebra_rank(&c.select_rows(&kept), 1e-10) == 4;
-                match decide_dropping(&c, 0.0, &[i, j]) {
+                match decide_dropping(&c, crate::Accuracy::Rounding, &[i, j]) {
                     Ok(decision) => {
                         assert!(admissible, "{:?}", decision.kept);
                         assert_eq!(decision.kept, kept);
                         assert!(decision.evidence.dependence_residual < 1e-12);
-                        assert_eq!(decide_keeping(&c, 0.0, &kept), Ok(decision));
+                        assert_eq!(
+                            decide_keeping(&c, crate::Accuracy::Rounding, &kept),
+                            Ok(decision)
+                        );
                     }
                     Err(KeptRowsError::Dependent { .. }) => assert!(!admissible),
                     Err(error) => panic!("{error}"),
@@ -249,7 +255,7 @@ pub(super) fn kahan(n: usize, angle: f64) -> Matrix {
 #[test]
 fn kahan_is_read_from_singular_values() {
     let kahan = kahan(90, 1.2);
-    let decision = decide(&kahan, 0.0).unwrap();
+    let decision = decide(&kahan, crate::Accuracy::Rounding).unwrap();
     let scaled = decision.scaling.apply(&kahan);
     let oracle = DMatrix::from_row_slice(90, 90, scaled.as_slice()).singular_values();
     let smallest = singular_values(&scaled)[89];
@@ -263,7 +269,7 @@ fn kahan_is_read_from_singular_values() {
 #[test]
 fn nearly_parallel_rows_are_undecided_with_both_readings() {
     let c = Matrix::from_rows(&[[1.0, 1.0], [1.0, 1.0 + 2e-12]]);
-    let decision = decide(&c, 0.0).unwrap();
+    let decision = decide(&c, crate::Accuracy::Rounding).unwrap();
     let RankStatus::Undecided(doubt) = decision.status else {
         panic!("{:?}", decision.status);
     };
@@ -284,10 +290,10 @@ fn nearly_parallel_rows_are_undecided_with_both_readings() {
 #[test]
 fn residual_sets_the_tolerance() {
     let c = Matrix::from_rows(&[[1.0, 1.0], [1.0, 1.0 + 1e-6]]);
-    assert_eq!(decide(&c, 0.0).unwrap().rank, 2);
-    let off = decide(&c, 1e-6).unwrap();
+    assert_eq!(decide(&c, crate::Accuracy::Rounding).unwrap().rank, 2);
+    let off = decide(&c, crate::Accuracy::Absolute(1e-6)).unwrap();
     assert_eq!((off.rank, off.is_decided()), (1, true));
-    let lost = decide(&c, 1.0).unwrap();
+    let lost = decide(&c, crate::Accuracy::Absolute(1.0)).unwrap();
     assert!(matches!(
         lost.status,
         RankStatus::Undecided(Doubt::NotPolished { .. })
@@ -314,7 +320,7 @@ fn coarse_data_hide_what_is_no_rounding() {
 #[test]
 fn empty_and_zero_matrices_have_rank_zero() {
     for (m, n) in [(0, 0), (0, 3), (3, 0), (2, 2)] {
-        let decision = decide(&Matrix::zeros(m, n), 0.0).unwrap();
+        let decision = decide(&Matrix::zeros(m, n), crate::Accuracy::Rounding).unwrap();
         assert_eq!((decision.rank, decision.redundancy), (0, m));
         assert!(decision.is_decided());
     }
@@ -330,7 +336,7 @@ proptest! {
     ) {
         let c = Matrix::from_fn(m, n, |i, j| data[6 * i + j]);
         for residual in [0.0, residual] {
-            match decide(&c, residual) {
+            match decide(&c, crate::Accuracy::Absolute(residual)) {
                 Ok(decision) => {
                     prop_assert_eq!(decision.rank + decision.redundancy, m);
                     prop_assert_eq!(crate::circuits(&decision).len(), decision.redundancy);
@@ -358,15 +364,21 @@ fn bad_input_is_named() {
     let mut c = Matrix::identity(3);
     c[(2, 1)] = f64::NAN;
     assert_eq!(
-        decide(&c, 0.0).unwrap_err().to_string(),
+        decide(&c, crate::Accuracy::Rounding)
+            .unwrap_err()
+            .to_string(),
         "constraint matrix: entry in row 2, column 1 is NaN, need a finite number"
     );
     assert!(matches!(
-        decide(&Matrix::identity(1), -1.0),
+        decide(&Matrix::identity(1), crate::Accuracy::Absolute(-1.0)),
         Err(RankError::Uncertainty { value: -1.0 })
     ));
     let c = Matrix::from_rows(&[[1.0], [2.0], [3.0]]);
-    let message = |rows: &[usize]| decide_dropping(&c, 0.0, rows).unwrap_err().to_string();
+    let message = |rows: &[usize]| {
+        decide_dropping(&c, crate::Accuracy::Rounding, rows)
+            .unwrap_err()
+            .to_string()
+    };
     assert_eq!(
         message(&[1]),
         "1 rows dropped and 2 kept, but the rank is 1 of 3 rows: drop exactly 2"

@@ -9,7 +9,7 @@ use super::certificate::{Certificate, Grounds, NearlyRedundant};
 use super::graded::Graded;
 use super::perturbation;
 use super::{
-    Doubt, Evidence, RankDecision, RankError, RankStatus, Reading, Spectrum, Uncertainty,
+    Accuracy, Doubt, Evidence, RankDecision, RankError, RankStatus, Reading, Spectrum,
     check_finite, gap, projected,
 };
 use crate::limits::{CLEAR_OF_DATA, HIDDEN, NEARLY_REDUNDANT, NOISE_FACTOR, VANISHES};
@@ -37,7 +37,7 @@ use linalg::{Dd, DdMatrix, Scaling};
 /// let grounds = |misalignment: f64| {
 ///     let mut c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 1.0, 0.0], [1.0, 1.0, 0.0]]));
 ///     c[(1, 0)] += Dd::from(misalignment);
-///     let decision = certify_within(&c, 2e-16).unwrap();
+///     let decision = certify_within(&c, rank::Accuracy::Absolute(2e-16)).unwrap();
 ///     (decision.rank, decision.evidence.certificate.unwrap().grounds)
 /// };
 /// assert_eq!(grounds(0.0), (1, Grounds::Vanishes));
@@ -51,7 +51,7 @@ use linalg::{Dd, DdMatrix, Scaling};
 ///   infinite or of another shape.
 pub fn certify_within<'a>(
     c: &DdMatrix,
-    uncertainty: impl Into<Uncertainty<'a>>,
+    uncertainty: impl Into<Accuracy<'a>>,
 ) -> Result<RankDecision, RankError> {
     let leading = c.hi();
     check_finite(&leading)?;
@@ -146,7 +146,7 @@ pub fn certify_rank(
 ) -> Result<Option<RankDecision>, RankError> {
     let leading = c.hi();
     check_finite(&leading)?;
-    let known = Uncertainty::Entries(uncertainty);
+    let known = Accuracy::Entries(uncertainty);
     let spread = known.equilibrated(&leading, &reading.scaling)?;
     let graded = Graded::of_rank(&c.scaled(&reading.scaling), reading.rank, &reading.matrix);
     let (m, n) = (c.nrows(), c.ncols());
@@ -187,7 +187,7 @@ impl Found {
         self,
         graded: &Graded,
         leading: &linalg::Matrix,
-        known: Uncertainty<'_>,
+        known: Accuracy<'_>,
     ) -> RankDecision {
         let sigma = graded.singular_values(leading.nrows().min(leading.ncols()));
         let rank = graded.kept.len();

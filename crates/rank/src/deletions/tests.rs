@@ -45,7 +45,7 @@ fn all_admissible_sets_are_found_and_counted() {
     let mut largest = 0;
     for seed in 1..=150 {
         let c = sample(seed);
-        let (m, decision) = (c.nrows(), decide(&c, 0.0).unwrap());
+        let (m, decision) = (c.nrows(), decide(&c, crate::Accuracy::Rounding).unwrap());
         let mut expected: Vec<Vec<usize>> = subsets(m, decision.redundancy)
             .filter(|set| rank_of(&c, &without(m, set)) == decision.rank)
             .collect();
@@ -72,7 +72,7 @@ fn smallest_sets_that_make_a_multiplier_or_a_group_unique() {
     let mut sizes = [0; 9];
     for seed in 1..=150 {
         let c = sample(seed);
-        let (m, decision) = (c.nrows(), decide(&c, 0.0).unwrap());
+        let (m, decision) = (c.nrows(), decide(&c, crate::Accuracy::Rounding).unwrap());
         let rows: Vec<Vec<usize>> = (0..m).map(|i| vec![i]).collect();
         for group in [vec![0], vec![1, 2]] {
             // Wrench: n combinations with the columns of C_X as coefficients.
@@ -123,12 +123,18 @@ fn by_ranks(c: &Matrix, rank: usize, group: &[usize]) -> Vec<Vec<usize>> {
 #[test]
 fn large_redundancies_are_counted() {
     let pairs = Matrix::from_fn(60, 30, |i, j| f64::from(u8::from(i / 2 == j)));
-    assert_eq!(count_deletions(&decide(&pairs, 0.0).unwrap()), Ok(1 << 30));
+    assert_eq!(
+        count_deletions(&decide(&pairs, crate::Accuracy::Rounding).unwrap()),
+        Ok(1 << 30)
+    );
     // Any 4 of 10 generic rows in four columns are independent: 10 over 6.
     let generic = Matrix::from_fn(10, 4, |i, j| ((i * i + 7 * j * j + i * j) as f64).sin());
-    assert_eq!(count_deletions(&decide(&generic, 0.0).unwrap()), Ok(210));
+    assert_eq!(
+        count_deletions(&decide(&generic, crate::Accuracy::Rounding).unwrap()),
+        Ok(210)
+    );
     let many = Matrix::from_fn(260, 130, |i, j| f64::from(u8::from(i / 2 == j)));
-    let error = count_deletions(&decide(&many, 0.0).unwrap()).unwrap_err();
+    let error = count_deletions(&decide(&many, crate::Accuracy::Rounding).unwrap()).unwrap_err();
     assert!(matches!(error, DeletionError::TooMany { .. }));
 }
 
@@ -136,7 +142,7 @@ fn large_redundancies_are_counted() {
 fn limits_units_and_refusals() {
     // Rows 0, 1, 2 equal; rows 3, 4 equal.
     let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 1.0]]);
-    let decision = decide(&c, 0.0).unwrap();
+    let decision = decide(&c, crate::Accuracy::Rounding).unwrap();
     let target = Matrix::from_rows(&[[1.0, 0.0, 0.0, 0.0, 0.0]]);
     let ask = |units: &[Vec<usize>], limits: Limits| {
         making_unique(&decision, &target, units, |_| true, limits).unwrap()

@@ -58,8 +58,8 @@ fn what_is_settled_is_true_and_parts_are_independent() {
         }
         let c = matrix(&rows);
         let blocks: Vec<Range<usize>> = (0..n).map(|b| 3 * b..3 * b + 3).collect();
-        let found = structure(&c, 0.0, &groups, &blocks).unwrap();
-        let decision = decide(&c, 0.0).unwrap();
+        let found = structure(&c, crate::Accuracy::Rounding, &groups, &blocks).unwrap();
+        let decision = decide(&c, crate::Accuracy::Rounding).unwrap();
         let margin = |c: &Matrix, z: &Matrix, rows: &[usize]| {
             let c = c.select_rows(rows);
             c.transpose().product(&z.select_rows(rows)).max_abs()
@@ -83,7 +83,7 @@ fn what_is_settled_is_true_and_parts_are_independent() {
             if let Settled::Open(k) = settled {
                 let part = &found.open[*k];
                 let own = c.select_rows(&part.rows);
-                let alone = decide(&own, 0.0).unwrap();
+                let alone = decide(&own, crate::Accuracy::Rounding).unwrap();
                 let places: Vec<usize> = (0..part.rows.len())
                     .filter(|&i| rows.contains(&part.rows[i]))
                     .collect();
@@ -95,7 +95,9 @@ fn what_is_settled_is_true_and_parts_are_independent() {
             }
         }
         for part in &found.parts {
-            rank += decide(&c.select_rows(&part.rows), 0.0).unwrap().rank;
+            rank += decide(&c.select_rows(&part.rows), crate::Accuracy::Rounding)
+                .unwrap()
+                .rank;
         }
         assert_eq!(rank, decision.rank, "ranks of parts add up");
     }
@@ -127,12 +129,12 @@ fn a_bridge_that_peeling_cannot_find() {
         });
     }
     let blocks = [0..3, 3..6, 6..9];
-    let found = structure(&matrix(&rows), 0.0, &groups, &blocks).unwrap();
+    let found = structure(&matrix(&rows), crate::Accuracy::Rounding, &groups, &blocks).unwrap();
     assert_eq!(found.groups[0], Settled::Bridge);
     assert!(found.groups[1..].iter().all(|s| *s == Settled::Open(0)));
     // Without the promise that the loop acts only among its bars, the pin may transmit a load.
     groups.iter_mut().for_each(|g| g.ground = true);
-    let careful = structure(&matrix(&rows), 0.0, &groups, &blocks).unwrap();
+    let careful = structure(&matrix(&rows), crate::Accuracy::Rounding, &groups, &blocks).unwrap();
     assert_eq!(careful.groups[0], Settled::Open(0));
 }
 
@@ -145,7 +147,7 @@ fn rounding_does_not_peel() {
         rows: vec![row],
         ground: true,
     });
-    let found = structure(&c, 0.0, &groups, &[0..1, 1..3]).unwrap();
+    let found = structure(&c, crate::Accuracy::Rounding, &groups, &[0..1, 1..3]).unwrap();
     assert_eq!(found.rows, [Settled::Open(0); 3]);
 }
 
@@ -164,14 +166,14 @@ fn odd_input_has_an_answer() {
             ground: false,
         },
     ];
-    let found = structure(&c, 0.0, &groups, &[]).unwrap();
+    let found = structure(&c, crate::Accuracy::Rounding, &groups, &[]).unwrap();
     assert_eq!(
         found.rows,
         [Settled::Open(0), Settled::Peeled, Settled::Peeled]
     );
     assert_eq!((found.parts.len(), found.open.len()), (2, 1));
-    assert!(structure(&c, f64::NAN, &[], &[]).is_err());
-    let empty = structure(&Matrix::zeros(0, 0), 0.0, &[], &[]).unwrap();
+    assert!(structure(&c, crate::Accuracy::Absolute(f64::NAN), &[], &[]).is_err());
+    let empty = structure(&Matrix::zeros(0, 0), crate::Accuracy::Rounding, &[], &[]).unwrap();
     assert!(empty.parts.is_empty());
 }
 

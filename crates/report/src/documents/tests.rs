@@ -58,7 +58,7 @@ fn certified(certificate: Option<Certificate>) -> Analysis {
             dependence_residual: 0.0,
             certificate: None,
         },
-        ..rank::decide(&c, 0.0).expect("finite")
+        ..rank::decide(&c, rank::Accuracy::Rounding).expect("finite")
     };
     Analysis {
         time: 0.5,

@@ -33,7 +33,7 @@ use crate::sparse::{blocks, rows_of};
 ///     c,
 ///     gamma: vec![0.0, 0.0],
 /// };
-/// let lambda = equations.multipliers(&decide(&equations.c, 0.0)?)?;
+/// let lambda = equations.multipliers(&decide(&equations.c, rank::Accuracy::Rounding)?)?;
 /// assert_eq!(lambda.as_chosen().iter().sum::<f64>(), 3.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

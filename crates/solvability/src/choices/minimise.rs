@@ -18,7 +18,7 @@ use crate::matrices::Solvability;
 /// use solvability::{LinearForm, Solvability, minimise};
 /// // Three equal springs side by side under a load of 6, then the first one half as stiff.
 /// let c = Matrix::from_rows(&[[1.0], [1.0], [1.0]]);
-/// let s = Solvability::of(&c, 0.0)?;
+/// let s = Solvability::of(&c, rank::Accuracy::Rounding)?;
 /// let of_row = |i| {
 ///     let mut form = LinearForm::zero(3);
 ///     form.add(&[(i, 1.0)]).map(|()| form)

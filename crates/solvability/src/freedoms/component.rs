@@ -11,7 +11,7 @@ use linalg::{Matrix, PivotedQr, equilibrate};
 use model::space::{cross, difference, norm};
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
-use rank::Uncertainty;
+use rank::Accuracy;
 
 use super::basis::{Condition, Form, Space, Subspace};
 
@@ -69,7 +69,7 @@ impl<'a> Component<'a> {
         let c = dimensionless(self.mechanism, &self.s, self.size).select_rows(rows);
         let known = uncertainty(self.mechanism, &self.s, self.size).select_rows(rows);
         // An uncertainty that is not finite belongs to a matrix that is none either.
-        let scaling = Uncertainty::from(&known)
+        let scaling = Accuracy::from(&known)
             .equilibration(&c)
             .unwrap_or_else(|_| equilibrate(&c));
         (PivotedQr::of_rows(scaling.apply(&c)), scaling.cols)

@@ -184,7 +184,7 @@ impl Walker<'_> {
                 .for_each(|(entry, unit)| *entry *= unit);
         }
         let n = phi_q.ncols();
-        let decision = rank::decide(&phi_q, 0.0).ok()?;
+        let decision = rank::decide(&phi_q, rank::Accuracy::Rounding).ok()?;
         let kept = phi_q.select_rows(&decision.kept);
         let free = PivotedQr::of_rows(kept).q_columns(decision.rank..n);
         let rows = decision.kept.iter().map(|&k| self.rows.held[k]);
@@ -210,7 +210,7 @@ impl Walker<'_> {
             // Rows that block a rotation at second order hold it to the root of rounding only.
             let known = f64::EPSILON.sqrt();
             let c = dimensionless(mechanism, &s, scene_size(mechanism, q)).select_rows(compared);
-            (rank::decide(&c, known).ok()?, c)
+            (rank::decide(&c, rank::Accuracy::Absolute(known)).ok()?, c)
         } else {
             let rows = Rows::in_double(mechanism, &s, q).select(compared);
             (rows.decide().ok()?, rows.matrix())

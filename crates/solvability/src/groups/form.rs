@@ -18,7 +18,7 @@ use crate::verdict::Judgement;
 /// use solvability::{LinearForm, Solvability, Verdict};
 /// // Rows 0 and 1 are the same: only the sum of their multipliers is determined.
 /// let c = Matrix::from_rows(&[[0.1, 0.0], [0.1, 0.0], [0.0, 1.0]]);
-/// let s = Solvability::of(&c, 0.0)?;
+/// let s = Solvability::of(&c, rank::Accuracy::Rounding)?;
 /// let mut sum = LinearForm::zero(3);
 /// sum.add(&[(0, 1.0), (1, 1.0)])?;
 /// assert_eq!(sum.judge(&s)?.verdict, Verdict::Unique);

@@ -63,7 +63,7 @@ fn exact_verdicts_have_no_smallest_number() {
 #[test]
 fn rounded_verdicts_are_undecided_near_zero() {
     let verdict = |epsilon: f64| {
-        Solvability::of(&bar(epsilon), 0.0)
+        Solvability::of(&bar(epsilon), rank::Accuracy::Rounding)
             .unwrap()
             .row(1)
             .unwrap()
@@ -79,7 +79,7 @@ fn rounded_verdicts_are_undecided_near_zero() {
 /// evidence.
 #[test]
 fn poor_evidence_calls_nothing_unique() {
-    let s = Solvability::of(&bar(0.0), 1e-6).unwrap();
+    let s = Solvability::of(&bar(0.0), rank::Accuracy::Absolute(1e-6)).unwrap();
     assert!(s.decision().is_decided());
     assert!(matches!(
         s.row(3).unwrap().verdict,
@@ -96,7 +96,7 @@ fn poor_evidence_calls_nothing_unique() {
 #[test]
 fn groups_overlap_repeat_and_may_be_empty() {
     for s in [
-        Solvability::of(&bar(0.0), 0.0).unwrap(),
+        Solvability::of(&bar(0.0), rank::Accuracy::Rounding).unwrap(),
         Solvability::of_exact(&bar(0.0)).unwrap(),
     ] {
         assert_eq!(s.group([]).unwrap(), Judgement::new(Verdict::Unique, 0.0));
@@ -113,7 +113,7 @@ fn groups_overlap_repeat_and_may_be_empty() {
 
 #[test]
 fn questions_that_cannot_be_answered_are_named() {
-    let s = Solvability::of(&bar(0.0), 0.0).unwrap();
+    let s = Solvability::of(&bar(0.0), rank::Accuracy::Rounding).unwrap();
     assert_eq!(
         s.row(4).unwrap_err().to_string(),
         "row 4 does not exist, rows are 0..4"
@@ -166,7 +166,10 @@ fn empty_matrices() {
 fn directions_without_a_reaction_are_left_out() {
     // Rows 0 and 1 are the same, row 2 is independent.
     let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
-    for s in [Solvability::of(&c, 0.0), Solvability::of_exact(&c)] {
+    for s in [
+        Solvability::of(&c, rank::Accuracy::Rounding),
+        Solvability::of_exact(&c),
+    ] {
         let s = s.unwrap();
         let live = |map: &Matrix, rows: &[usize]| {
             let mapped = s.basis().mapped(map, rows.iter().copied()).unwrap();

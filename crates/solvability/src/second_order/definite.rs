@@ -13,7 +13,7 @@ pub(super) fn is_blocked(forms: &Forms) -> bool {
     let mixed = Matrix::from_fn(forms.matrices.len(), x * y, |s, e| {
         forms.matrices[s][(e / y, x + e % y)]
     });
-    let Ok(decision) = rank::decide(&mixed, FORM_NOISE) else {
+    let Ok(decision) = rank::decide(&mixed, rank::Accuracy::Absolute(FORM_NOISE)) else {
         return false;
     };
     if !decision.is_decided() && mixed.max_abs() > FORM_NOISE {

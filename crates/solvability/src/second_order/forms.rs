@@ -251,7 +251,8 @@ impl Forms {
 
 /// Orthonormal coordinates, the first of which span the columns, and their number.
 fn split(columns: &Matrix) -> Result<(Matrix, usize), Undetermined> {
-    let decision = rank::decide(columns, REGULAR).map_err(Undetermined::Regular)?;
+    let decision =
+        rank::decide(columns, rank::Accuracy::Absolute(REGULAR)).map_err(Undetermined::Regular)?;
     match decision.status {
         RankStatus::Undecided(doubt) => Err(Undetermined::RegularCount(doubt)),
         _ => {

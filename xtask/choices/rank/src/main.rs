@@ -1,7 +1,7 @@
 //! Prints the rank and the dependent rows of a matrix from the standard input, one row per line.
 
 use linalg::Matrix;
-use rank::{components, decide};
+use rank::{Accuracy, components, decide};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let text = std::io::read_to_string(std::io::stdin())?;
@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         rows.push(row?);
     }
     let columns = rows.first().map_or(0, Vec::len);
-    let decision = decide(&Matrix::from_vec(rows.len(), columns, rows.concat())?, 0.0)?;
+    let decision = decide(&Matrix::from_vec(rows.len(), columns, rows.concat())?, Accuracy::Rounding)?;
     println!("rank {}, {:?}", decision.rank, decision.status);
     println!("dependent: {:?}", components(&decision).coupled);
     Ok(())

@@ -12,7 +12,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let columns = rows.first().map_or(0, Vec::len);
     let c = Matrix::from_vec(rows.len(), columns, rows.concat())?;
-    let solvability = Solvability::of(&c, 0.0)?;
+    let solvability = Solvability::of(&c, rank::Accuracy::Rounding)?;
     for i in 0..c.nrows() {
         println!("row {}: {:?}", i + 1, solvability.row(i)?);
     }

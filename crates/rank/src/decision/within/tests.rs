@@ -43,7 +43,7 @@ fn what_the_data_hide_is_undecided() {
     // Rows that differ by less than the uncertainty of the data: redundant within the data only if
     // the uncertainty is below a hundredth of a row.
     let c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 1.0], [1.0, 1.05]]));
-    let decision = certify_within(&c, 0.01).unwrap();
+    let decision = certify_within(&c, crate::Accuracy::Absolute(0.01)).unwrap();
     let RankStatus::Undecided(Doubt::Hidden { sigma, tolerance }) = decision.status else {
         panic!("{:?}", decision.status);
     };
@@ -53,10 +53,14 @@ fn what_the_data_hide_is_undecided() {
     );
     let near = DdMatrix::from(&Matrix::from_rows(&[[1.0, 1.0], [1.0, 1.0005]]));
     assert_eq!(
-        grounds(&certify_within(&near, 1e-3).unwrap()),
+        grounds(&certify_within(&near, crate::Accuracy::Absolute(1e-3)).unwrap()),
         Grounds::WithinData
     );
-    assert!(certify_within(&near, 1e-3).unwrap().is_decided());
+    assert!(
+        certify_within(&near, crate::Accuracy::Absolute(1e-3))
+            .unwrap()
+            .is_decided()
+    );
 }
 
 /// A rank below that of the entries, read from data within their uncertainty, although the entries
@@ -64,7 +68,7 @@ fn what_the_data_hide_is_undecided() {
 #[test]
 fn a_lower_rank_within_the_data_is_not_exact() {
     let rows = Matrix::from_rows(&[[1.0, 0.0]]);
-    let (scaling, _) = Uncertainty::from(0.0).equilibrate(&rows).unwrap();
+    let (scaling, _) = crate::Accuracy::Rounding.equilibrate(&rows).unwrap();
     let decision = |rank: usize, grounds: Grounds| {
         let reading = RankReading {
             rank,
@@ -88,7 +92,7 @@ fn a_lower_rank_within_the_data_is_not_exact() {
 /// precision; by 1e-20: seen at 32 digits.
 #[test]
 fn exact_redundancy_falls_with_the_precision_and_misalignment_stays() {
-    let decision = certify_within(&cranks(0.0), DATA).unwrap();
+    let decision = certify_within(&cranks(0.0), crate::Accuracy::Absolute(DATA)).unwrap();
     assert_eq!((decision.rank, grounds(&decision)), (11, Grounds::Vanishes));
     assert!(
         decision.evidence.sigma_next < 1e-30,
@@ -100,13 +104,13 @@ fn exact_redundancy_falls_with_the_precision_and_misalignment_stays() {
     assert!(certificate.sigma_bound > 1e-3 * decision.evidence.sigma_r);
 
     let reading = |epsilon: f64| {
-        let decision = certify_within(&cranks(epsilon), DATA).unwrap();
+        let decision = certify_within(&cranks(epsilon), crate::Accuracy::Absolute(DATA)).unwrap();
         decision.evidence.singular_values[11] / epsilon
     };
     let reference = reading(1e-12);
     for k in 3..=20 {
         let epsilon = 10f64.powi(-k);
-        let decision = certify_within(&cranks(epsilon), DATA).unwrap();
+        let decision = certify_within(&cranks(epsilon), crate::Accuracy::Absolute(DATA)).unwrap();
         // σ₁₂ is proportional to ε for small ε.
         let deviation = reading(epsilon) / reference - 1.0;
         assert!(
@@ -157,7 +161,7 @@ fn dependencies_of_a_nearly_redundant_matrix_are_those_of_the_matrix_as_read() {
         ]));
         c[(1, 1)] = e;
         c[(3, 1)] = Dd::from(2.0) * e;
-        let decision = certify_within(&c, 1e-24).unwrap();
+        let decision = certify_within(&c, crate::Accuracy::Absolute(1e-24)).unwrap();
         assert_eq!(
             (decision.rank, grounds(&decision)),
             (3, Grounds::FullRank),
@@ -190,7 +194,7 @@ fn planted_ranks_in_double_double() {
             }
             sum * Dd::from(scales[i])
         });
-        let decision = certify_within(&c, DATA).unwrap();
+        let decision = certify_within(&c, crate::Accuracy::Absolute(DATA)).unwrap();
         assert!(decision.is_decided(), "case {case}");
         assert_eq!(decision.rank, r, "case {case}: {m}×{n}");
         let expected = if r == m.min(n) {
@@ -215,7 +219,8 @@ fn planted_ranks_in_double_double() {
 #[test]
 fn shapes_and_bad_input() {
     for (m, n) in [(0, 0), (0, 3), (3, 0), (2, 2)] {
-        let decision = certify_within(&DdMatrix::zeros(m, n), DATA).unwrap();
+        let decision =
+            certify_within(&DdMatrix::zeros(m, n), crate::Accuracy::Absolute(DATA)).unwrap();
         assert_eq!(
             (decision.rank, decision.redundancy, decision.is_decided()),
             (0, m, true)
@@ -223,18 +228,20 @@ fn shapes_and_bad_input() {
     }
     let nan = DdMatrix::from(&Matrix::from_rows(&[[f64::NAN]]));
     assert!(matches!(
-        certify_within(&nan, DATA),
+        certify_within(&nan, crate::Accuracy::Absolute(DATA)),
         Err(RankError::NonFinite { .. })
     ));
     let one = DdMatrix::from(&Matrix::identity(1));
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(
-            certify_within(&one, bad),
+            certify_within(&one, crate::Accuracy::Absolute(bad)),
             Err(RankError::Uncertainty { .. })
         ));
     }
     assert!(matches!(
-        certify_within(&one, 1.0).unwrap().status,
+        certify_within(&one, crate::Accuracy::Absolute(1.0))
+            .unwrap()
+            .status,
         RankStatus::Undecided(Doubt::NotPolished { .. })
     ));
 }
@@ -250,7 +257,8 @@ fn nearly_parallel(e: f64) -> DdMatrix {
 #[test]
 fn a_thousandth_is_nearly_redundant() {
     for (e, is_near) in [(0.8e-3, true), (1.2e-3, false)] {
-        let decision = certify_within(&nearly_parallel(e), DATA).unwrap();
+        let decision =
+            certify_within(&nearly_parallel(e), crate::Accuracy::Absolute(DATA)).unwrap();
         assert_eq!(decision.rank, 2);
         assert_eq!(decision.nearly_redundant().is_some(), is_near, "{e}");
     }
@@ -260,7 +268,8 @@ fn a_thousandth_is_nearly_redundant() {
 #[test]
 fn what_vanishes_is_ten_digits_below_rounding() {
     for (e, expected) in [(3e-27, Grounds::Vanishes), (3e-26, Grounds::WithinData)] {
-        let decision = certify_within(&nearly_parallel(e), DATA).unwrap();
+        let decision =
+            certify_within(&nearly_parallel(e), crate::Accuracy::Absolute(DATA)).unwrap();
         assert_eq!((decision.rank, grounds(&decision)), (1, expected), "{e}");
     }
 }
@@ -269,7 +278,11 @@ fn what_vanishes_is_ten_digits_below_rounding() {
 #[test]
 fn a_singular_value_clears_the_data_by_four() {
     for (times, is_decided) in [(2.5, false), (4.5, true)] {
-        let decision = certify_within(&nearly_parallel(times * 1e-9), 1e-10).unwrap();
+        let decision = certify_within(
+            &nearly_parallel(times * 1e-9),
+            crate::Accuracy::Absolute(1e-10),
+        )
+        .unwrap();
         assert_eq!(decision.is_decided(), is_decided, "{times}");
     }
 }
@@ -281,7 +294,7 @@ fn coefficients_of_a_nearly_redundant_matrix_are_as_read() {
     for (e, is_as_read) in [(0.5e-6, true), (2e-6, false)] {
         let two = nearly_parallel(e);
         let c = DdMatrix::from_fn(3, 2, |i, j| two[(i % 2, j)]);
-        let decision = certify_within(&c, 1e-12).unwrap();
+        let decision = certify_within(&c, crate::Accuracy::Absolute(1e-12)).unwrap();
         assert_eq!((decision.rank, decision.redundancy), (2, 1));
         let tolerance = decision.coefficient_tolerance();
         assert_eq!(tolerance < 1e-9, is_as_read, "{e}: {tolerance:e}");

@@ -74,7 +74,7 @@ fn planted_matrices_read_as_by_the_dense_code() {
     let (mut undecided, mut redundant) = (0, 0);
     for case in 0..400 {
         let (c, groups, blocks) = planted(&mut dice);
-        let dense = decide(&c, 0.0).expect("finite");
+        let dense = decide(&c, crate::Accuracy::Rounding).expect("finite");
         let found = sparse(&c, &blocks);
         if !found.is_decided() || !dense.is_decided() {
             undecided += 1;
@@ -153,7 +153,7 @@ fn nearly_dependent_rows_are_never_misread() {
                 (0..c.nrows()).for_each(|i| c[(i, j)] *= units[j]);
             }
         }
-        let dense = decide(&c, 0.0).expect("finite");
+        let dense = decide(&c, crate::Accuracy::Rounding).expect("finite");
         let found = sparse(&c, &blocks);
         if !found.is_decided() {
             continue;
@@ -246,7 +246,7 @@ fn kahan_is_undecided_or_right() {
             for width in [1, 3, n] {
                 let blocks: Vec<_> = (0..n).step_by(width).map(|j| j..j + width).collect();
                 for matrix in [&kahan, &kahan.transpose()] {
-                    let dense = decide(matrix, 0.0).expect("finite");
+                    let dense = decide(matrix, crate::Accuracy::Rounding).expect("finite");
                     let found = sparse(matrix, &blocks);
                     undecided += usize::from(!found.is_decided());
                     if found.is_decided() {

@@ -1,37 +1,41 @@
-//! The uncertainty of the entries of a matrix, and the equilibration that uses it.
+//! What the entries of a matrix are known to, and the equilibration that uses it.
 
 use super::outcome::RankError;
 use crate::limits::SIGNIFICANT;
 use linalg::{Matrix, Scaling, equilibrate};
 
-/// The uncertainty of the entries of a matrix.
+/// What the entries of a matrix are known to.
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::decide;
+/// use rank::{Accuracy, decide};
+/// // Two rows that differ in the last bit.
+/// let c = Matrix::from_rows(&[[1.0, 1.0], [1.0, 1.0 + f64::EPSILON]]);
+/// assert_eq!(decide(&c, Accuracy::Rounding)?.rank, 1);
+/// assert_eq!(decide(&c, Accuracy::Exact)?.rank, 2);
 /// // Two directions that are parallel except for the rounding of their cosine.
 /// let c = Matrix::from_rows(&[[6e-17, 1.0], [-1e-17, 1.0]]);
-/// assert_eq!(decide(&c, 0.0)?.rank, 2); // every entry is exact
+/// assert_eq!(decide(&c, Accuracy::Rounding)?.rank, 2); // small entries are significant
 /// assert_eq!(decide(&c, &Matrix::from_rows(&[[2e-16; 2]; 2]))?.rank, 1);
 /// # Ok::<(), rank::RankError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub enum Uncertainty<'a> {
-    /// Absolute, the same for all entries of the equilibrated matrix: small entries are as
-    /// significant as large ones.
-    Equilibrated(f64),
+pub enum Accuracy<'a> {
+    /// To their last digits: each entry is as significant as any other, and a computation with
+    /// them rounds.
+    Rounding,
+    /// They are the rational numbers that they stand for, and nothing is rounded: the rank is that
+    /// of [`certify_exact`](crate::certify_exact). Where the rank or the rows are given, it is the
+    /// same as [`Accuracy::Rounding`].
+    Exact,
+    /// To an absolute uncertainty that is the same for all entries of the equilibrated matrix.
+    Absolute(f64),
     /// Absolute, entry by entry, in the units of the matrix. Entries below their uncertainty do not
     /// affect the scale of a row or column.
     Entries(&'a Matrix),
 }
 
-impl From<f64> for Uncertainty<'_> {
-    fn from(uncertainty: f64) -> Self {
-        Self::Equilibrated(uncertainty)
-    }
-}
-
-impl<'a> From<&'a Matrix> for Uncertainty<'a> {
+impl<'a> From<&'a Matrix> for Accuracy<'a> {
     fn from(uncertainty: &'a Matrix) -> Self {
         Self::Entries(uncertainty)
     }
@@ -46,7 +50,7 @@ pub(crate) struct Spread {
     pub(crate) norm: f64,
 }
 
-impl Uncertainty<'_> {
+impl Accuracy<'_> {
     /// The equilibration of the significant entries of `c`. What rounding left of an entry is not
     /// scaled up to size one.
     ///
@@ -75,7 +79,11 @@ impl Uncertainty<'_> {
     /// The uncertainty of `c` in a given equilibration.
     pub(crate) fn equilibrated(self, c: &Matrix, scaling: &Scaling) -> Result<Spread, RankError> {
         let spread = match self {
-            Self::Equilibrated(largest) => Spread {
+            Self::Rounding | Self::Exact => Spread {
+                largest: 0.0,
+                norm: 0.0,
+            },
+            Self::Absolute(largest) => Spread {
                 largest,
                 norm: largest * (c.nrows() as f64 * c.ncols() as f64).sqrt(),
             },
@@ -99,10 +107,11 @@ impl Uncertainty<'_> {
 
     /// The uncertainty of each entry in an equilibration computed by [`Self::equilibrate`].
     pub(crate) fn of_entries(self, scaling: &Scaling) -> Matrix {
+        let all =
+            |value: f64| Matrix::from_fn(scaling.rows.len(), scaling.cols.len(), |_, _| value);
         match self {
-            Self::Equilibrated(value) => {
-                Matrix::from_fn(scaling.rows.len(), scaling.cols.len(), |_, _| value)
-            }
+            Self::Rounding | Self::Exact => all(0.0),
+            Self::Absolute(value) => all(value),
             Self::Entries(u) => scaling.apply(u),
         }
     }
@@ -136,7 +145,7 @@ mod tests {
         let known = Matrix::from_rows(&[[0.0, 0.0], [0.0, 1e-12]]);
         for (entry, is_scaled) in [(0.8e-7, false), (1.2e-7, true)] {
             let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, entry]]);
-            let (scaling, _) = Uncertainty::Entries(&known).equilibrate(&c).unwrap();
+            let (scaling, _) = Accuracy::Entries(&known).equilibrate(&c).unwrap();
             assert_eq!(scaling.apply(&c)[(1, 1)] >= 0.5, is_scaled, "{entry}");
         }
     }
