@@ -176,7 +176,6 @@ fn of_kind(kind: usize, numbers: &mut Numbers) -> Matrix {
 #[test]
 fn matrices_of_every_kind_have_small_residuals() {
     let mut numbers = Numbers(1);
-    let mut worst = 0.0_f64;
     for k in 0..10_000 {
         let a = of_kind(k % 20, &mut numbers);
         let n = a.nrows();
@@ -202,12 +201,9 @@ fn matrices_of_every_kind_have_small_residuals() {
                 .fold(0.0_f64, |a, x| a.hypot(*x));
             assert!((length - 1.0).abs() < 1e-14, "matrix {k}: length {length}");
             assert!(
-                missed <= 10.0 * bound,
+                missed <= 5.0 * bound,
                 "matrix {k} of {n}: {missed:e}, {bound:e}"
             );
-            if bound > 0.0 {
-                worst = worst.max(missed / bound);
-            }
         }
         let trace: f64 = (0..n).map(|i| a[(i, i)]).sum();
         let sum: f64 = pairs.iter().map(|p| p.value[0]).sum();
@@ -216,7 +212,6 @@ fn matrices_of_every_kind_have_small_residuals() {
             "matrix {k}: {trace:e}, {sum:e}"
         );
     }
-    println!("worst {worst}");
 }
 
 /// Roots of one and zeros are exact to rounding.
