@@ -22,7 +22,7 @@ use linalg::{Dd, DdMatrix, Scaling};
 /// | argument | meaning |
 /// | --- | --- |
 /// | `c` | constraint matrix; its entries have errors of double-double only |
-/// | `uncertainty` | distance of the entries from those of the intended model; see [`Uncertainty`]. Near a singular configuration they change with the square root of the data |
+/// | `uncertainty` | distance of the entries from those of the intended model; see [`Accuracy`]. Near a singular configuration they change with the square root of the data |
 ///
 /// With u, the largest uncertainty of an equilibrated entry, s, the Frobenius norm of all, and
 /// `τ = max(10·u, s)`: a singular value below τ is zero for some matrix within the uncertainty, one
