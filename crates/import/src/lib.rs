@@ -149,6 +149,10 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Box
             Err(problem) => return Err(Box::new(Refusal::of(vec![*problem], 0, &texts))),
         }
     }
+    // Files that include each other would be read again and again.
+    if let Some(refusal) = refused(&mut findings) {
+        return Err(refusal);
+    }
     let files = files::Files::new(&documents, &texts);
     let (mut model, format) = read(&files, options, loops.as_ref(), &mut findings);
     if let Some(refusal) = refused(&mut findings) {

@@ -60,8 +60,15 @@ fn apply(
     text: &SourceText,
     findings: &mut Findings,
 ) -> Result<(), Wrong> {
-    for key in keys {
+    for (k, key) in keys.iter().enumerate() {
         let (name, line) = (key.name.as_str(), text.position(key.at).0);
+        if let Some(first) = keys[..k].iter().find(|of| of.name == name) {
+            let line = text.position(first.at).0;
+            return Err((
+                key.at,
+                format!("key `{name}` is there already, in line {line}"),
+            ));
+        }
         match name {
             _ if KEYS.contains(&name) => {}
             "name_mot" => findings.leave("actuators", name, text, line),

@@ -136,6 +136,15 @@ fn asked<'o>(
             findings.fault_with_help(fault, root.source, root.span(), message, "", help);
             continue;
         };
+        let is_asked = |of: &Asked| (of.joint, of.coordinate) == (joint, coordinate);
+        if let Some(first) = out.iter().find(|of| is_asked(of)) {
+            let message = format!(
+                "`{name}` is asked at {value}, and `{}` at {}: one coordinate has one value",
+                first.name, first.value
+            );
+            findings.of(Fault::Twice, root, message);
+            continue;
+        }
         let one = Asked {
             name,
             value: *value,

@@ -76,6 +76,11 @@ fn includes_stay_in_their_folder() {
         (first(&refusal).0.as_str(), refusal.file.as_str()),
         ("P0611", "self.xml")
     );
+    // Each of two includes of a file in itself has two again: 2^300 of them.
+    let twice = "<mujoco><include file='twice.xml'/><include file='twice.xml'/></mujoco>";
+    std::fs::write(folder.join("in/twice.xml"), twice).expect("writable");
+    let refusal = import::import("model.xml", twice, &at).expect_err("refused");
+    assert_eq!(first(&refusal).0, "P0611");
     // At most 64 files.
     let mut all = String::new();
     for k in 0..65 {

@@ -352,6 +352,11 @@ fn a_yaml_of_loops_says_what_it_lacks() {
         (pair, 1, "key `type` is missing"),
         (&format!("{pair}types: [6d]\n"), 2, "did you mean `type`?"),
         (
+            &format!("{pair}type: [3d]\n{pair}"),
+            3,
+            "key `closed_loop` is there already, in line 1",
+        ),
+        (
             &format!("{pair}type: [3d]\njoint_name: [A]\njoint_type: [REVOLUTE]\n"),
             4,
             "`REVOLUTE` is no type of a joint here: `SPHERICAL`, or `UJOINT_XY`",
@@ -366,6 +371,27 @@ fn a_yaml_of_loops_says_what_it_lacks() {
         assert_eq!((code.as_str(), at), ("P0612", line), "{yaml}: {message}");
         assert!(message.contains(words), "{message}");
     }
+}
+
+/// A coordinate that is asked for twice has no value.
+#[test]
+fn a_pose_names_a_coordinate_once() {
+    let file = "urdf/triangle.urdf";
+    let joint = {
+        let text = text_of(file);
+        let named = text.split("<joint name=\"").nth(1).expect("a joint");
+        named.split('"').next().expect("a name").to_owned()
+    };
+    let options = Options {
+        pose: vec![(joint.clone(), 0.1), (joint.clone(), 0.2)],
+        ..options_of(file)
+    };
+    let refusal = import::import(file, &text_of(file), &options).expect_err("refused");
+    let (_, _, message) = first(&refusal);
+    assert!(
+        message.contains(&format!("`{joint}` is asked at 0.2")),
+        "{message}"
+    );
 }
 
 /// All files of this folder have names that their formats know.
