@@ -148,13 +148,21 @@ fn the_test_command_of_the_readme_is_that_of_the_checks() {
 }
 
 #[test]
-fn every_crate_has_a_readme_and_a_licence() {
+fn every_crate_has_a_readme_and_what_a_registry_asks_for() {
     for name in crates() {
         assert!(
             root().join(format!("crates/{name}/README.md")).exists(),
             "{name} has no README.md"
         );
-        assert!(read(format!("crates/{name}/Cargo.toml")).contains("license.workspace = true"));
+        let text = read(format!("crates/{name}/Cargo.toml"));
+        let has = |line: &str| text.lines().any(|l| l.starts_with(line));
+        assert!(has("license.workspace = true"), "{name}");
+        // It is published, with what it is found by, or it says that it is not.
+        let stays = has("publish.workspace = true");
+        let parts = ["publish = true", "keywords = [", "categories = ["];
+        assert!(stays || parts.iter().all(|part| has(part)), "{name}");
+        let shows_all = has("[package.metadata.docs.rs]");
+        assert!(stays || shows_all == has("[features]"), "{name}");
     }
 }
 
