@@ -60,7 +60,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     study.simulate_into(&directory, |_| ControlFlow::Continue(()))?;
     let report = arguments.out.join("report.html");
     println!(
-        "report: {} (opens in any browser), with its tables beside it",
+        "report: {} (opens in any browser), with its tables in the same folder",
         report.display()
     );
     Ok(())

@@ -157,7 +157,7 @@ fn a_free_arm_reaches_as_far_as_it_is_long() {
 }
 
 /// A parallelogram passes the pose in which its bars are in line, where the branches of its motion
-/// meet: its drive goes on, wherever beside that pose the search begins.
+/// meet: its drive goes on, from whichever place near that pose the search begins.
 #[test]
 fn branches_that_meet_are_no_limit() {
     for angle in [0.0, -1e-14, -1e-12, -1e-9, -1e-6, -1e-3] {
