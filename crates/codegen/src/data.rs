@@ -3,13 +3,12 @@
 //! theirs by the chain rule.
 
 use proc_macro2::Ident;
-use quote::{format_ident, quote};
-use symbolic::{Expr, Scalar};
+use quote::format_ident;
+use symbolic::{Expr, Symbol};
 
 use crate::defined::Along;
-use crate::elaborate::{Model, not_polynomial};
+use crate::elaborate::Model;
 use crate::identity;
-use crate::kernel::kernel;
 use crate::parse::{Definition, Kept, ParamKind};
 use crate::vector::cross;
 
@@ -174,7 +173,6 @@ fn images(model: &mut Model, datum: &Datum, k: usize) -> Vec<(Expr, Expr)> {
 /// derivatives, each found with those of the values before it.
 fn by(model: &mut Model, datum: &Datum, k: usize) -> Along {
     let mut images = images(model, datum, k);
-    let number = datum.symbols[k];
     let mut along = model.inputs.derivation(&model.g, &images);
     for k in 0..model.kept.len() {
         if !model.is_computed(&model.kept[k]) {
@@ -185,7 +183,7 @@ fn by(model: &mut Model, datum: &Datum, k: usize) -> Along {
         for (symbol, value) in pairs {
             let slope = along.apply(&mut model.g, value);
             if !identity::is_zero(&mut model.g, &model.inputs, slope) {
-                images.push((symbol, polynomial(model, slope, symbol, number)));
+                images.push((symbol, slope));
             }
         }
         along = model.inputs.derivation(&model.g, &images);
@@ -193,20 +191,31 @@ fn by(model: &mut Model, datum: &Datum, k: usize) -> Along {
     along
 }
 
-/// Returns the derivative itself, or an input that represents it if it is not a polynomial: kernels
-/// must be polynomials, and the derivative of a stored number can be divided in advance.
-fn polynomial(model: &mut Model, slope: Expr, of: Expr, by: Expr) -> Expr {
-    if !not_polynomial(model, slope) {
-        return slope;
+/// The inputs that these expressions read of the constraint, in the order of their symbols.
+pub(crate) fn read_by<'e>(model: &Model, outputs: impl Iterator<Item = &'e Expr>) -> Vec<Symbol> {
+    let mut stored: Vec<Symbol> = outputs.flat_map(|&e| model.g.inputs(e)).collect();
+    stored.sort_unstable();
+    stored.dedup();
+    stored.retain(|s| model.inputs.source(*s).access().1);
+    stored
+}
+
+/// The derivatives of stored numbers by those of the data that are not zero: place among the
+/// former, index of the latter, value.
+pub(crate) fn slopes(
+    model: &mut Model,
+    stored: &[Symbol],
+    data: &[Along],
+) -> Vec<(usize, usize, Expr)> {
+    let mut slopes = Vec::new();
+    for (place, &symbol) in stored.iter().enumerate() {
+        let value = model.g.symbol_expr(symbol);
+        for (number, along) in data.iter().enumerate() {
+            let slope = along.apply(&mut model.g, value);
+            if !identity::is_zero(&mut model.g, &model.inputs, slope) {
+                slopes.push((place, number, model.expand(slope)));
+            }
+        }
     }
-    let slope = model.expand(slope);
-    let printed = kernel(model, &[slope], Scalar::F64);
-    let (statements, outputs) = (&printed.statements, &printed.outputs);
-    let access = quote!({ #(#statements)* #(#outputs)* }).to_string();
-    let name = |model: &Model, e: Expr| {
-        let symbol = model.g.as_symbol(e).expect("data are inputs");
-        model.g.name(symbol).to_owned()
-    };
-    let name = format!("d_{}_d_{}", name(model, of), name(model, by));
-    model.inputs.slope(&mut model.g, &name, access)
+    slopes
 }

@@ -43,12 +43,16 @@ pub(crate) struct ConstraintKernels {
     pub(crate) d_residual_dx: Sparse,
     pub(crate) d_gamma_dv: Sparse,
     pub(crate) d_velocity_dx: Sparse,
-    /// One value for each number of the data.
-    pub(crate) d_phi_dp: Vec<Expr>,
-    pub(crate) d_residual_dp: Vec<Expr>,
 }
 
 impl ConstraintKernels {
+    /// The expressions of its rows: all kernels that run in any number type.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = &Expr> {
+        let c = self.c.iter().map(|e| &e.value);
+        let others = [&self.phi, &self.b, &self.gamma, &self.component];
+        c.chain(others.into_iter().flatten())
+    }
+
     /// The unit of the measure that a driven row prescribes: it is an angle if the row does not
     /// depend on the velocities of origins.
     pub(crate) fn unit_of_measure(&self, space: Space) -> Ident {
@@ -79,13 +83,11 @@ pub(crate) enum Component {
 }
 
 /// Derives the kernels of a constraint, or reports which row restricts no motion. Rows of Ψ are
-/// linear in velocities, because elaboration refuses others. `data` are the derivations with
-/// respect to the numbers that the constraint stores.
+/// linear in velocities, because elaboration refuses others.
 pub(crate) fn constraint(
     model: &mut Model,
     body: &ConstraintBody,
     component: &Component,
-    data: &[Along],
 ) -> Result<ConstraintKernels, usize> {
     let columns = columns(model);
     let (phi, psi) = body.rows.split_at(body.holonomic);
@@ -151,14 +153,6 @@ pub(crate) fn constraint(
     let d_gamma_dv = velocity_derivatives(model, &gamma);
     let d_velocity_dx = along_columns(model, &velocity, &columns);
     let phi = phi.to_vec();
-    let d_phi_dp = gradient(model, &phi, &body.vectors, data);
-    let d_residual_dp = match model.inputs.space {
-        Space::Plane => gradient(model, &residuals, &[], data),
-        Space::Space3 => {
-            let vectors = second_rates(model, body);
-            gradient(model, &residuals, &vectors, data)
-        }
-    };
     let mut kernels = ConstraintKernels {
         phi,
         restricts_start,
@@ -172,8 +166,6 @@ pub(crate) fn constraint(
         d_residual_dx,
         d_gamma_dv,
         d_velocity_dx,
-        d_phi_dp,
-        d_residual_dp,
     };
     expand(&mut kernels, model);
     Ok(kernels)
@@ -187,8 +179,6 @@ fn expand(k: &mut ConstraintKernels, model: &mut Model) {
         &mut k.gamma,
         &mut k.component,
         &mut k.place,
-        &mut k.d_phi_dp,
-        &mut k.d_residual_dp,
     ];
     let sparse = [
         &mut k.wrench,
@@ -401,26 +391,6 @@ fn residuals(model: &mut Model, c: &[Entry], gamma: &[Expr]) -> Vec<Expr> {
         .collect()
 }
 
-/// `∂(λᵀ·rows)/∂p` for each number p of the data.
-fn gradient(
-    model: &mut Model,
-    rows: &[Expr],
-    vectors: &[(usize, Vector)],
-    data: &[Along],
-) -> Vec<Expr> {
-    let sum = weighted(model, rows, 0..rows.len(), vectors);
-    data.iter()
-        .map(|along| {
-            let slope = along.apply(&mut model.g, sum);
-            if identity::is_zero(&mut model.g, &model.inputs, slope) {
-                model.g.number(0.0)
-            } else {
-                slope
-            }
-        })
-        .collect()
-}
-
 /// `Σ λ·row` of these rows. In space, rows that are the components of a vector are multiplied as
 /// vectors.
 fn weighted(
@@ -449,20 +419,6 @@ fn weighted(
         }
     }
     model.g.sum(&terms)
-}
-
-/// The vectors among the rows of `C·a − Γ`.
-fn second_rates(model: &mut Model, body: &ConstraintBody) -> Vec<(usize, Vector)> {
-    let full = model.inputs.full_time_derivation(&mut model.g);
-    let vectors = body.vectors.iter().map(|(first, v)| {
-        let velocity = if *first < body.holonomic {
-            v.rate(&mut model.g, &model.turns, &model.time)
-        } else {
-            v.clone()
-        };
-        (*first, velocity.rate(&mut model.g, &model.turns, &full))
-    });
-    vectors.collect()
 }
 
 /// Partial derivatives of a scalar by the velocities.

@@ -19,7 +19,6 @@ use symbolic::{Expr, Graph};
 
 use crate::parse::{Definition, Kept, Param, ParamKind};
 use crate::space::Space;
-pub(crate) use check::not_polynomial;
 use expression::{as_scalar, wrong};
 pub(crate) use inputs::{Inputs, Source};
 pub(crate) use model::{

@@ -7,14 +7,15 @@ mod parts;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use symbolic::{Counts, Expr, Scalar};
+use symbolic::{Counts, Expr, Program, Scalar};
 
 use crate::data::{derivations, of_measure, of_turn, stored};
 use crate::derive::{self, Component, ConstraintKernels, Sparse};
 use crate::elaborate::{Body, ConstraintBody, Counted, Measure, Model};
-use crate::kernel::kernel;
+use crate::kernel::{Kernel, kernel, rows};
 use crate::parse::Definition;
 use crate::space::Space;
+use data::Stored;
 use parts::{Driven, Type};
 
 /// The module of a constraint: its type and one type for the drive of each measure.
@@ -37,8 +38,8 @@ pub(crate) fn constraint(
     };
     let data = stored(d, &model);
     let by_data = derivations(&mut model, &data);
-    let kernels = derive::constraint(&mut model, &body, &component, &by_data)
-        .map_err(|row| idle(&body.at, row))?;
+    let kernels =
+        derive::constraint(&mut model, &body, &component).map_err(|row| idle(&body.at, row))?;
     let drive = |(name, measure): &(Ident, Measure)| parts::Drive {
         measure: name.clone(),
         name: format_ident!("{}{}Drive", d.name, parts::camel(name)),
@@ -77,7 +78,8 @@ pub(crate) fn constraint(
         turns: model.counted.len(),
         counted: model.counted.clone(),
     };
-    let mut items = vec![constraint_type(d, &model, &main, &kernels, &body, text)];
+    let stored = Stored::of(&mut model, &kernels, &by_data);
+    let mut driven_types = Vec::new();
     let motion = model.inputs.motion[0];
     for (drive, (measure, value)) in drives.iter().zip(&body.measures) {
         let (rows, at) = match *value {
@@ -128,12 +130,13 @@ pub(crate) fn constraint(
             }
             Driven::Measure | Driven::Rows => model.inputs.partial(&mut model.g, motion),
         });
-        let kernels = derive::constraint(&mut model, &driven, &component, &by_data)
+        let own_kernels = derive::constraint(&mut model, &driven, &component)
             .map_err(|row| idle(&driven.at, row))?;
+        let stored = Stored::of(&mut model, &own_kernels, &by_data);
         let mut data = data.clone();
         let (rows, doc) = match drive.by {
             Driven::Measure => {
-                data.push(of_measure(&model, kernels.unit_of_measure(d.space)));
+                data.push(of_measure(&model, own_kernels.unit_of_measure(d.space)));
                 (
                     vec![measure.to_string()],
                     "a function of time: measure − initial measure − f(t) = 0",
@@ -174,17 +177,47 @@ pub(crate) fn constraint(
         };
         let mut driven = driven;
         driven.measures[0].1 = expanded(&mut model, *value);
-        items.push(constraint_type(d, &model, &drive, &kernels, &driven, text));
+        driven_types.push((drive, own_kernels, stored, driven));
     }
+    let driven = driven_types
+        .iter()
+        .map(|(t, kernels, stored, body)| (t, kernels, stored, body));
+    let types: Vec<_> = std::iter::once((&main, &kernels, &stored, &body))
+        .chain(driven)
+        .collect();
+    let blocks = types
+        .iter()
+        .flat_map(|(_, kernels, ..)| derivatives(kernels));
+    let operations = |block: &Sparse| Program::new(&model.g, &values(block)).counts().total();
+    let is_long = blocks.map(|(.., block)| operations(block)).sum::<usize>() > MOST_OPERATIONS;
+    let items = types.into_iter().map(|(t, kernels, stored, body)| {
+        constraint_type(d, &model, t, (kernels, stored, is_long), body, text)
+    });
     let uses = parts::uses(runtime, d.space, true);
     Ok(quote!(#uses #(#items)*))
+}
+
+/// Operations of the closed derivatives of a definition and its drives, at most: longer ones are
+/// left to dual numbers, which compile nothing and take little longer. Mesh, screw and universal
+/// have 10 to 20 thousand and were a sixth of all generated lines; cylindrical, the next, has 6500.
+const MOST_OPERATIONS: usize = 8000;
+
+/// The derivatives of rows by poses and velocities.
+fn derivatives(k: &ConstraintKernels) -> [(&'static str, &'static str, Signature, &Sparse); 4] {
+    use Signature::{Force, Rate, Residual};
+    [
+        ("d_force_dx", "∂(Cᵀλ)/∂x", Force, &k.d_force_dx),
+        ("d_residual_dx", "∂(C·a − Γ)/∂x", Residual, &k.d_residual_dx),
+        ("d_gamma_dv", "∂Γ/∂v", Rate, &k.d_gamma_dv),
+        ("d_velocity_dx", "∂(C·v − b)/∂x", Rate, &k.d_velocity_dx),
+    ]
 }
 
 fn constraint_type(
     d: &Definition,
     model: &Model,
     t: &Type,
-    k: &ConstraintKernels,
+    (k, stored, is_long): (&ConstraintKernels, &Stored, bool),
     body: &ConstraintBody,
     text: &str,
 ) -> TokenStream {
@@ -205,31 +238,45 @@ fn constraint_type(
     };
     let data = data::methods(model, &t.data);
     let drives = parts::drives(d, model, name, &t.drives);
-    let visit = t
-        .drives
-        .iter()
-        .map(|parts::Drive { name, .. }| quote!(visitor.drive::<#name>();));
+    let visits = t.drives.iter();
+    let visits = visits.map(|parts::Drive { name, .. }| quote!(visitor.drive::<#name>();));
 
-    let kernel_of = |name, what, outputs: &[Expr], s| method(name, what, model, outputs, s);
-    let sparse = |name, what, block: &Sparse, s| method(name, what, model, &values(block), s);
-    let phi = kernel_of("phi", "Φ", &k.phi, Signature::Position);
+    let row = |name, what, outputs: &[Expr], s| {
+        method(name, what, rows(model, outputs, &stored.symbols), s)
+    };
+    let phi = row("phi", "Φ", &k.phi, Signature::Position);
     let (constants, varying): (Vec<_>, Vec<_>) =
         k.c.iter().enumerate().partition(|(_, e)| e.constant);
+    let entries = |name, what, entries: &[(usize, &derive::Entry)], arguments| {
+        indexed(
+            name,
+            what,
+            entries,
+            |outputs| rows(model, outputs, &stored.symbols),
+            arguments,
+        )
+    };
     let what = "Constant entries of C";
-    let c_constant = indexed("c_constant", what, model, &constants, Scalar::F64);
-    let c = indexed(
+    let c_constant = (!constants.is_empty()).then(|| entries("c_constant", what, &constants, None));
+    let c = entries(
         "c",
         "Varying entries of C",
-        model,
         &varying,
-        Scalar::Generic,
+        Some(quote!(x: &[Pose<T>], f: &[[T; 3]],)),
     );
-    let b = kernel_of("b", "b", &k.b, Signature::Position);
-    let gamma = kernel_of("gamma", "Γ", &k.gamma, Signature::Velocity);
-    let what = "Entries of the wrench map";
-    let wrench = sparse("wrench", what, &k.wrench, Signature::Wrench);
+    let some = |k: &[Expr]| !k.is_empty();
+    let b = some(&k.b).then(|| row("b", "b", &k.b, Signature::Position));
+    let gamma = row("gamma", "Γ", &k.gamma, Signature::Velocity);
     let what = "Coefficients of the named component";
-    let component = kernel_of("component", what, &k.component, Signature::Position);
+    let component =
+        some(&k.component).then(|| row("component", what, &k.component, Signature::Position));
+    let wrench = kernel(model, &values(&k.wrench), Scalar::Generic);
+    let wrench = method(
+        "wrench",
+        "Entries of the wrench map",
+        wrench,
+        Signature::Position,
+    );
     let place = {
         let kernel = kernel(model, &k.place, Scalar::Generic);
         let doc = counted("The place of the reaction", kernel.counts);
@@ -237,30 +284,32 @@ fn constraint_type(
         let dim = parts::index(d.space.dim());
         quote! {
             #[doc = #doc]
-            fn place(&self, x: &[Pose<T>]) -> [T; #dim] where T: Real {
+            fn place(&self, x: &[Pose<T>]) -> [T; #dim] {
                 #(#statements)*
                 [#(#outputs),*]
             }
         }
     };
-    let d_force_dx = sparse("d_force_dx", "∂(Cᵀλ)/∂x", &k.d_force_dx, Signature::Force);
-    let what = "∂(C·a − Γ)/∂x";
-    let d_residual_dx = sparse("d_residual_dx", what, &k.d_residual_dx, Signature::Residual);
-    let d_gamma_dv = sparse("d_gamma_dv", "∂Γ/∂v", &k.d_gamma_dv, Signature::Velocity);
-    let what = "∂(C·v − b)/∂x";
-    let d_velocity_dx = sparse("d_velocity_dx", what, &k.d_velocity_dx, Signature::Velocity);
-    let d_phi_dp = kernel_of("d_phi_dp", "∂(λᵀΦ)/∂p", &k.d_phi_dp, Signature::Force);
-    let what = "∂(λᵀ(C·a − Γ))/∂p";
-    let d_residual_dp = kernel_of("d_residual_dp", what, &k.d_residual_dp, Signature::Work);
+    let closed = derivatives(k).into_iter().filter(|_| !is_long);
+    let derivatives = closed.map(|(name, what, s, block)| {
+        method(name, what, kernel(model, &values(block), Scalar::F64), s)
+    });
+    let stored = stored.methods(model);
     let Traits {
         constraint,
+        constraint_kernels,
         definition,
-        derivatives,
         element,
-        positions,
+        reaction,
         visitor,
         ..
     } = Traits::of(d.space);
+    let boxed = &constraint_kernels;
+    let visit = (!t.drives.is_empty()).then(|| {
+        quote! {
+            fn visit_drives<V: #visitor>(visitor: &mut V) { #(#visits)* }
+        }
+    });
     quote! {
         #structure
         #drives
@@ -270,10 +319,9 @@ fn constraint_type(
         impl #constraint for #name {
             #spec
             #from_arguments
-            fn visit_drives<V: #visitor>(visitor: &mut V) { #(#visit)* }
-            fn positions<T: Ring>(&self) -> &dyn #positions { self }
-            fn element<T: Ring>(&self) -> &dyn #element { self }
-            fn derivatives<T: Ring>(&self) -> &dyn #derivatives { self }
+            #visit
+            fn element<T: Scalar>(&self) -> &dyn #element { self }
+            fn reaction<T: Real>(&self) -> &dyn #reaction { self }
         }
 
         #[allow(unused_variables)]
@@ -288,33 +336,27 @@ fn constraint_type(
         }
 
         #[allow(unused_variables)]
-        #[allow(clippy::too_many_arguments)]
-        impl<T: Ring> #positions for #name {
+        impl<T: Scalar> #element for #name {
             fn spec(&self) -> &'static ConstraintSpec { &Self::SPEC }
             #phi
             #c_constant
             #c
-        }
-
-        #[allow(unused_variables)]
-        #[allow(clippy::too_many_arguments)]
-        impl<T: Ring> #element for #name {
             #b
             #gamma
-            #wrench
             #component
-            #place
-            #d_phi_dp
         }
 
         #[allow(unused_variables)]
-        #[allow(clippy::too_many_arguments)]
-        impl<T: Ring> #derivatives for #name {
-            #d_force_dx
-            #d_residual_dx
-            #d_gamma_dv
-            #d_velocity_dx
-            #d_residual_dp
+        impl<T: Real> #reaction for #name {
+            #wrench
+            #place
+        }
+
+        #[allow(unused_variables)]
+        impl #constraint_kernels for #name {
+            #stored
+            #(#derivatives)*
+            fn boxed(&self) -> Box<dyn #boxed> { Box::new(self.clone()) }
         }
     }
 }
@@ -345,9 +387,9 @@ fn turned(model: &mut Model, [cos, sin]: [Expr; 2]) -> Expr {
 struct Traits {
     constraint: TokenStream,
     definition: TokenStream,
-    positions: TokenStream,
     element: TokenStream,
-    derivatives: TokenStream,
+    reaction: TokenStream,
+    constraint_kernels: TokenStream,
     visitor: TokenStream,
     force: TokenStream,
     force_element: TokenStream,
@@ -359,9 +401,9 @@ impl Traits {
             Space::Plane => Self {
                 constraint: quote!(Constraint),
                 definition: quote!(Definition),
-                positions: quote!(Positions<T>),
                 element: quote!(Element<T>),
-                derivatives: quote!(Derivatives<T>),
+                reaction: quote!(Reaction<T>),
+                constraint_kernels: quote!(ConstraintKernels),
                 visitor: quote!(Visitor),
                 force: quote!(Force),
                 force_element: quote!(ForceElement<T>),
@@ -369,9 +411,9 @@ impl Traits {
             Space::Space3 => Self {
                 constraint: quote!(Constraint<Space3>),
                 definition: quote!(Definition<Space3>),
-                positions: quote!(Positions<T, Space3>),
                 element: quote!(Element<T, Space3>),
-                derivatives: quote!(Derivatives<T, Space3>),
+                reaction: quote!(Reaction<T, Space3>),
+                constraint_kernels: quote!(ConstraintKernels<Space3>),
                 visitor: quote!(Visitor<Space3>),
                 force: quote!(Force<Space3>),
                 force_element: quote!(ForceElement<T, Space3>),
@@ -399,21 +441,13 @@ pub(crate) fn force(
     let requirement = parts::requirement(&model);
     let points = parts::points(d);
     let q: Vec<Expr> = k.q.iter().map(|(_, e)| *e).collect();
-    let q = method("q", "Entries of Q", &model, &q, Signature::Velocity);
-    let dq_dx = method(
-        "dq_dx",
-        "∂Q/∂x",
-        &model,
-        &values(&k.dq_dx),
-        Signature::Velocity,
-    );
-    let dq_dv = method(
-        "dq_dv",
-        "∂Q/∂v",
-        &model,
-        &values(&k.dq_dv),
-        Signature::Velocity,
-    );
+    let of = |name, what, outputs: &[Expr]| {
+        let kernel = kernel(&model, outputs, Scalar::Generic);
+        method(name, what, kernel, Signature::Velocity)
+    };
+    let q = of("q", "Entries of Q", &q);
+    let dq_dx = of("dq_dx", "∂Q/∂x", &values(&k.dq_dx));
+    let dq_dv = of("dq_dv", "∂Q/∂v", &values(&k.dq_dv));
     let uses = parts::uses(runtime, d.space, false);
     let Traits {
         definition,
@@ -453,32 +487,32 @@ pub(crate) fn force(
 enum Signature {
     /// No other arguments.
     Position,
-    /// No other arguments, numbers with quotients.
-    Wrench,
     /// `v`
     Velocity,
-    /// `lambda`
+    /// `lambda`, in `f64`
     Force,
-    /// `v` and `a`
+    /// `v`, in `f64`
+    Rate,
+    /// `v` and `a`, in `f64`
     Residual,
-    /// `v`, `a` and `lambda`
-    Work,
 }
 
-fn method(name: &str, what: &str, model: &Model, outputs: &[Expr], s: Signature) -> TokenStream {
+fn method(name: &str, what: &str, kernel: Kernel, s: Signature) -> TokenStream {
+    use Signature::{Force, Position, Rate, Residual, Velocity};
     let name = format_ident!("{name}");
-    let kernel = kernel(model, outputs, Scalar::Generic);
     let doc = counted(what, kernel.counts);
-    use Signature::{Force, Residual, Velocity, Work};
-    let v = matches!(s, Velocity | Residual | Work).then(|| quote!(v: &[Twist<T>],));
-    let a = matches!(s, Residual | Work).then(|| quote!(a: &[Twist<T>],));
-    let lambda = matches!(s, Force | Work).then(|| quote!(lambda: &[T],));
-    let range = out_range(outputs.len());
+    let number = match s {
+        Position | Velocity => quote!(T),
+        Force | Rate | Residual => quote!(f64),
+    };
+    let v = matches!(s, Velocity | Rate | Residual).then(|| quote!(v: &[Twist<#number>],));
+    let a = matches!(s, Residual).then(|| quote!(a: &[Twist<#number>],));
+    let lambda = matches!(s, Force).then(|| quote!(lambda: &[#number],));
+    let range = out_range(kernel.outputs.len());
     let body = kernel.into_out();
-    let bound = matches!(s, Signature::Wrench).then(|| quote!(where T: Real));
     quote! {
         #[doc = #doc]
-        fn #name(&self, x: &[Pose<T>], #v #a f: &[[T; 3]], #lambda out: &mut [T]) #bound {
+        fn #name(&self, x: &[Pose<#number>], #v #a f: &[[#number; 3]], #lambda out: &mut [#number]) {
             #range
             #body
         }
@@ -489,13 +523,13 @@ fn method(name: &str, what: &str, model: &Model, outputs: &[Expr], s: Signature)
 fn indexed(
     name: &str,
     what: &str,
-    model: &Model,
     entries: &[(usize, &derive::Entry)],
-    scalar: Scalar,
+    kernel: impl Fn(&[Expr]) -> Kernel,
+    arguments: Option<TokenStream>,
 ) -> TokenStream {
     let name = format_ident!("{name}");
     let outputs: Vec<Expr> = entries.iter().map(|(_, e)| e.value).collect();
-    let kernel = kernel(model, &outputs, scalar);
+    let kernel = kernel(&outputs);
     let doc = counted(what, kernel.counts);
     let assignments = entries.iter().zip(&kernel.outputs).map(|((k, _), e)| {
         let k = Literal::usize_unsuffixed(*k);
@@ -503,15 +537,9 @@ fn indexed(
     });
     let statements = &kernel.statements;
     let range = out_range(entries.last().map_or(0, |(k, _)| k + 1));
-    let signature = match scalar {
-        Scalar::F64 => quote!(fn #name(&self, out: &mut [f64])),
-        Scalar::Generic => {
-            quote!(fn #name(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]))
-        }
-    };
     quote! {
         #[doc = #doc]
-        #signature {
+        fn #name(&self, #arguments out: &mut [T]) {
             #range
             #(#statements)*
             #(#assignments)*

@@ -3,7 +3,7 @@
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
-use symbolic::{Counts, Expr, Printer, Program, Scalar};
+use symbolic::{Counts, Expr, Printer, Program, Scalar, Symbol};
 
 use crate::elaborate::Model;
 
@@ -18,6 +18,16 @@ pub(crate) struct Kernel {
 
 /// Prints `outputs` for a number type.
 pub(crate) fn kernel(model: &Model, outputs: &[Expr], scalar: Scalar) -> Kernel {
+    print(model, outputs, scalar, &[])
+}
+
+/// Prints rows, which tell the places of the numbers that they read of the constraint: those of
+/// these symbols.
+pub(crate) fn rows(model: &Model, outputs: &[Expr], stored: &[Symbol]) -> Kernel {
+    print(model, outputs, Scalar::Generic, stored)
+}
+
+fn print(model: &Model, outputs: &[Expr], scalar: Scalar, stored: &[Symbol]) -> Kernel {
     let program = Program::new(&model.g, outputs);
     let (shared, printed) = Printer::new(&model.g, &program, scalar, &model.names).print();
     let mut used: Vec<_> = outputs.iter().flat_map(|&e| model.g.inputs(e)).collect();
@@ -26,10 +36,13 @@ pub(crate) fn kernel(model: &Model, outputs: &[Expr], scalar: Scalar) -> Kernel 
     let inputs = used.into_iter().map(|s| {
         let name = Ident::new(model.g.name(s), Span::call_site());
         let (access, is_f64) = model.inputs.source(s).access();
-        if is_f64 && scalar == Scalar::Generic {
-            quote!(let #name = T::from(#access);)
-        } else {
-            quote!(let #name = #access;)
+        match stored.iter().position(|other| *other == s) {
+            Some(place) => {
+                let place = Literal::usize_unsuffixed(place);
+                quote!(let #name = T::stored(#access, #place);)
+            }
+            None if is_f64 && scalar == Scalar::Generic => quote!(let #name = T::from(#access);),
+            None => quote!(let #name = #access;),
         }
     });
     Kernel {

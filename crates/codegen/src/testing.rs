@@ -3,7 +3,6 @@
 use symbolic::Expr;
 
 use crate::Kind;
-use crate::data;
 use crate::derive::{self, Component, ConstraintKernels, ForceKernels};
 use crate::elaborate::{Body, ConstraintBody, Model, Source, elaborate};
 use crate::parse::definition;
@@ -58,9 +57,7 @@ pub(crate) fn constraint(text: &str) -> (Model, ConstraintBody, ConstraintKernel
         Some(_) => Component::Along,
         None => Component::None,
     };
-    let data = data::stored(&definition, &model);
-    let data = data::derivations(&mut model, &data);
-    let kernels = derive::constraint(&mut model, &body, &component, &data)
+    let kernels = derive::constraint(&mut model, &body, &component)
         .unwrap_or_else(|row| panic!("row {row} restricts nothing"));
     (model, body, kernels)
 }

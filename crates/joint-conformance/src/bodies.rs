@@ -36,10 +36,6 @@ pub trait Bodies: Space {
     #[doc(hidden)]
     fn moved<D: Number>(x: &Self::Pose<f64>, v: &[f64], tau: D) -> Self::Pose<D>;
 
-    /// The twist with these numbers.
-    #[doc(hidden)]
-    fn twist<D: Number>(numbers: &[D]) -> Self::Twist<D>;
-
     /// A pose and velocities as they are after one rigid motion of everything, the same for all.
     #[doc(hidden)]
     fn carried(x: &Self::Pose<f64>) -> Self::Pose<f64>;
@@ -102,14 +98,6 @@ impl Bodies for Plane {
             angle,
             cos,
             sin,
-        }
-    }
-
-    fn twist<D: Number>(numbers: &[D]) -> plane::Twist<D> {
-        plane::Twist {
-            x: numbers[0],
-            y: numbers[1],
-            omega: numbers[2],
         }
     }
 
@@ -223,13 +211,6 @@ impl Bodies for Space3 {
             })
         });
         space3::Pose { r, rot }
-    }
-
-    fn twist<D: Number>(numbers: &[D]) -> space3::Twist<D> {
-        space3::Twist {
-            v: [numbers[0], numbers[1], numbers[2]],
-            omega: [numbers[3], numbers[4], numbers[5]],
-        }
     }
 
     fn carried(x: &space3::Pose) -> space3::Pose {

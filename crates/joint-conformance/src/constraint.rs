@@ -6,7 +6,7 @@ mod identities;
 use std::collections::BTreeSet;
 
 use joints::spec::{ConstraintSpec, Row, Spec};
-use joints::{Argument, ArgumentError, Constraint, Definition, Element};
+use joints::{Argument, ArgumentError, Constraint, Definition, Element, Sloped};
 
 use crate::block::Block;
 use crate::bodies::Bodies;
@@ -171,13 +171,18 @@ impl<S: Bodies> Subject for OfConstraint<S> {
                 residual.update(&of(Kernel::Gamma), |e, g| e - g);
                 residual
             }
-            Kernel::Wrench => sparse([S::N_DOF, m], spec.wrench, |out| k.wrench(x, f, out)),
+            Kernel::Wrench => {
+                let reaction = D::reaction_of(made.as_ref());
+                sparse([S::N_DOF, m], spec.wrench, |out| reaction.wrench(x, f, out))
+            }
             Kernel::Component => {
                 let rows = spec.component.map_or(0, |_| m);
                 dense(rows, |out| k.component(x, f, out))
             }
-            Kernel::Place => Block::column(k.place(x).as_ref().to_vec()),
-            Kernel::DPhiDp => dense(spec.n_data(), |out| k.d_phi_dp(x, f, lambda, out)),
+            Kernel::Place => {
+                let place = D::reaction_of(made.as_ref()).place(x);
+                Block::column(place.as_ref().to_vec())
+            }
             _ => unreachable!("a kernel that is not differentiated"),
         }
     }
@@ -203,8 +208,11 @@ impl<S: Bodies> Subject for OfConstraint<S> {
             Kernel::DVelocityDx => sparse([m, n], spec.d_velocity_dx, |out| {
                 k.d_velocity_dx(x, v, f, out);
             }),
+            Kernel::DPhiDp => dense(spec.n_data(), |out| {
+                k.slopes(x, f, Sloped::Phi).phi(lambda, out)
+            }),
             Kernel::DResidualDp => dense(spec.n_data(), |out| {
-                k.d_residual_dp(x, v, a, f, lambda, out);
+                k.slopes(x, f, Sloped::All(v)).residual(lambda, &at.a, out);
             }),
             _ => self.kernel(made, kernel, at),
         }
@@ -270,6 +278,7 @@ impl<S: Bodies> Subject for OfConstraint<S> {
         check.component()?;
         check.start()?;
         check.turned()?;
+        check.programs()?;
         check.rows_balance()
     }
 
@@ -308,12 +317,12 @@ fn c_entries<S: Bodies, D: KernelNumber>(
     f: &[[D; 3]],
     out: &mut [D],
 ) {
-    let mut constant = vec![f64::NAN; out.len()];
+    let mut constant = vec![D::from(f64::NAN); out.len()];
     k.c_constant(&mut constant);
     k.c(x, f, out);
     for ((e, c), out) in k.spec().c.iter().zip(constant).zip(out) {
         if e.constant {
-            *out = D::from(c);
+            *out = c;
         }
     }
 }

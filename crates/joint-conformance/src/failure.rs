@@ -43,6 +43,8 @@ pub enum Property {
     DPhiDp,
     /// `∂(λᵀ·(C·a − Γ))/∂p`
     DResidualDp,
+    /// The programs of the rows compute what the kernels compute, bit for bit.
+    Programs,
     /// The wrench is −C of the first body, moved to the place.
     Wrench,
     /// The law has a value at most poses.
@@ -91,8 +93,9 @@ impl fmt::Display for Property {
             Self::Data => {
                 "`data` tells the numbers that the facts name, and `set_data` puts numbers back"
             }
-            Self::DPhiDp => "d_phi_dp = ∂(λᵀ·Φ)/∂p",
-            Self::DResidualDp => "d_residual_dp = ∂(λᵀ·(C·a − Γ))/∂p",
+            Self::DPhiDp => "the slopes by the data are ∂(λᵀ·Φ)/∂p",
+            Self::DResidualDp => "the slopes by the data are ∂(λᵀ·(C·a − Γ))/∂p",
+            Self::Programs => "the programs of the rows compute what the kernels compute",
             Self::Wrench => "the wrench is −C of the first body, moved to the place",
             Self::Defined => "the law has a value at most poses",
             Self::Place => "the place is fixed in its body",

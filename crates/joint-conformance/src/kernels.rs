@@ -1,17 +1,22 @@
 //! Constraints and forces of any definition, with their kernels in each number type of the harness.
 
-use joints::{Constraint, Definition, Derivatives, Element, Force, ForceElement};
+use joints::{
+    Constraint, ConstraintKernels, Definition, Element, Force, ForceElement, Reaction, Scalar,
+};
 
 use crate::bodies::Bodies;
 use crate::number::{Dual, Number, Traced};
 
 /// A constraint of any definition.
 pub(crate) trait AnyConstraint<S: Bodies> {
-    /// Its kernels for plain numbers, with further derivatives.
-    fn plain(&self) -> &dyn Derivatives<f64, S>;
+    /// Its kernels for plain numbers.
+    fn plain(&self) -> &dyn ConstraintKernels<S>;
 
-    /// Its kernels for dual numbers.
+    /// Its rows for dual numbers.
     fn dual(&self) -> &dyn Element<Dual, S>;
+
+    /// Its reaction for dual numbers.
+    fn dual_reaction(&self) -> &dyn Reaction<Dual, S>;
 
     /// The same with these numbers in place of its own; see [`Definition::set_data`].
     fn with_data(&self, numbers: &[f64]) -> Box<dyn AnyConstraint<S>>;
@@ -21,12 +26,16 @@ pub(crate) trait AnyConstraint<S: Bodies> {
 }
 
 impl<K: Constraint<S>, S: Bodies> AnyConstraint<S> for K {
-    fn plain(&self) -> &dyn Derivatives<f64, S> {
+    fn plain(&self) -> &dyn ConstraintKernels<S> {
         self
     }
 
     fn dual(&self) -> &dyn Element<Dual, S> {
         self.element()
+    }
+
+    fn dual_reaction(&self) -> &dyn Reaction<Dual, S> {
+        self.reaction()
     }
 
     fn with_data(&self, numbers: &[f64]) -> Box<dyn AnyConstraint<S>> {
@@ -74,9 +83,12 @@ impl<K: Force<S>, S: Bodies> AnyForce<S> for K {
 }
 
 /// A number type in which all kernels are compiled.
-pub(crate) trait KernelNumber: Number {
-    /// The kernels of a constraint for it.
+pub(crate) trait KernelNumber: Number + Scalar {
+    /// The rows of a constraint for it.
     fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S>;
+
+    /// The reaction of a constraint for it.
+    fn reaction_of<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Reaction<Self, S>;
 
     /// The kernels of a force for it.
     fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S>;
@@ -84,6 +96,10 @@ pub(crate) trait KernelNumber: Number {
 
 impl KernelNumber for f64 {
     fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S> {
+        constraint.plain()
+    }
+
+    fn reaction_of<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Reaction<Self, S> {
         constraint.plain()
     }
 
@@ -95,6 +111,10 @@ impl KernelNumber for f64 {
 impl KernelNumber for Dual {
     fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S> {
         constraint.dual()
+    }
+
+    fn reaction_of<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Reaction<Self, S> {
+        constraint.dual_reaction()
     }
 
     fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S> {

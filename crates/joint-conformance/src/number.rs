@@ -1,9 +1,10 @@
 //! Number types of the references: plain numbers for differences, dual numbers for exact
 //! derivatives, and numbers that tell where a law has no value.
 
+use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use joints::Real;
+use joints::{Real, Scalar};
 use num_dual::{Dual2_64, DualNum};
 
 /// A number that poses can be made of: cosine and sine come from the number itself.
@@ -22,6 +23,27 @@ impl Number for f64 {
 /// type for both, as each type compiles all kernels once more.
 #[derive(Clone, Copy)]
 pub(crate) struct Dual(pub(crate) Dual2_64);
+
+thread_local! {
+    /// Slopes of the numbers that a constraint stores, by their places.
+    static SLOPES: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
+}
+
+/// What `ask` answers where the numbers that constraints store have these slopes, by their places;
+/// those of others are constant.
+pub(crate) fn with_slopes<R>(slopes: Vec<f64>, ask: impl FnOnce() -> R) -> R {
+    SLOPES.set(slopes);
+    let answer = ask();
+    SLOPES.take();
+    answer
+}
+
+impl Scalar for Dual {
+    fn stored(value: f64, place: usize) -> Self {
+        let slope = SLOPES.with_borrow(|slopes| slopes.get(place).copied());
+        Self(Dual2_64::new(value, slope.unwrap_or(0.0), 0.0))
+    }
+}
 
 impl Number for Dual {
     fn sin_cos(self) -> (Self, Self) {

@@ -18,7 +18,8 @@ mod pfaff {
 
 use joint_macro::{force, joint};
 use joints::{
-    Constraint, Definition, Derivatives, Element, Force, ForceElement, Pose, Positions, Twist,
+    Constraint, ConstraintKernels, Definition, Element, Force, ForceElement, Pose, Reaction,
+    Sloped, Twist,
 };
 
 joint! { plane EqualDistance(i, j, k) {
@@ -59,7 +60,7 @@ fn equal_distance_by_hand() {
         },
     ];
     let mut phi = [0.0];
-    Positions::phi(&joint, &x, &[], &mut phi);
+    Element::phi(&joint, &x, &[], &mut phi);
     // 5 − 13
     assert_eq!(phi, [-8.0]);
 
@@ -71,15 +72,15 @@ fn equal_distance_by_hand() {
         .collect();
     assert_eq!(pattern, [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)]);
     let mut c = [f64::NAN; 6];
-    Positions::<f64>::c_constant(&joint, &mut c);
-    Positions::c(&joint, &x, &[], &mut c);
+    Element::<f64>::c_constant(&joint, &mut c);
+    Element::c(&joint, &x, &[], &mut c);
     assert_eq!(c, [-2.0, -4.0, -6.0, 4.0, 8.0, 0.0]);
 
     // Γ = −2(ȧ·ȧ − ḃ·ḃ), ȧ = (2, 0), ḃ = (1, −1): −2(4 − 2).
     let mut gamma = [0.0];
     Element::gamma(&joint, &x, &v, &[], &mut gamma);
     assert_eq!(gamma, [-4.0]);
-    assert_eq!(Element::<f64>::place(&joint, &x), [1.0, 2.0]);
+    assert_eq!(Reaction::<f64>::place(&joint, &x), [1.0, 2.0]);
 }
 
 facade_joint! { plane ScaledPin(i) {
@@ -97,7 +98,7 @@ fn the_facade_path_is_used() {
         scale: 2.0,
     };
     let mut phi = [0.0; 2];
-    Positions::phi(&pin, &[Pose::GROUND], &[], &mut phi);
+    Element::phi(&pin, &[Pose::GROUND], &[], &mut phi);
     assert_eq!(phi, [1.0, -3.0]);
 }
 
@@ -165,7 +166,7 @@ fn names_that_collide_are_told_apart() {
     ];
     let f = [[0.25, 0.0, 0.0], [0.5, 0.0, 0.0]];
     let mut phi = [0.0; 2];
-    Positions::phi(&joint, &x, &f, &mut phi);
+    Element::phi(&joint, &x, &f, &mut phi);
     // lambda = (79, 208); −79 − (1 + 2 + … + 14) − 0.25 and −208 − 0.5.
     assert_eq!(phi, [-184.25, -208.5]);
 }
@@ -188,7 +189,7 @@ fn names_of_arguments_hide_nothing() {
     let mut joint = Shadows::new(3.0);
     Definition::initialise(&mut joint, &[Pose::new(2.0, 0.0, 0.0)]);
     let mut phi = [0.0];
-    Positions::phi(&joint, &[Pose::new(3.0, 0.0, 0.5)], &[], &mut phi);
+    Element::phi(&joint, &[Pose::new(3.0, 0.0, 0.5)], &[], &mut phi);
     // out = 1, None = 2: 4 + 2 + 0.5 − 3·2
     assert_eq!(phi, [0.5]);
 }
@@ -204,24 +205,14 @@ fn what_is_computed_from_other_numbers_changes_with_them() {
     assert_eq!(Shadows::SPEC.n_data(), 2);
     let pose = [Pose::new(3.0, 0.0, 0.5)];
     let mut gradient = [0.0; 2];
-    Element::d_phi_dp(&joint, &pose, &[], &[10.0], &mut gradient);
+    joint
+        .slopes(&pose, &[], Sloped::Phi)
+        .phi(&[10.0], &mut gradient);
     // ∂/∂lambda = −x_0 = −2, ∂/∂x_0 = (2·2 + 1)·(−3) − 3 = −18
     assert_eq!(gradient, [-20.0, -180.0]);
     // C = (2·None + 1)·(2·out + 1) along x: its derivative by x_0 is 2·(−3)·3 + 5·(−2) = −28.
-    let a = [Twist {
-        x: 1.0,
-        y: 0.0,
-        omega: 0.0,
-    }];
-    Derivatives::d_residual_dp(
-        &joint,
-        &pose,
-        &[Twist::zero()],
-        &a,
-        &[],
-        &[10.0],
-        &mut gradient,
-    );
+    let slopes = joint.slopes(&pose, &[], Sloped::All(&[Twist::zero()]));
+    slopes.residual(&[10.0], &[1.0, 0.0, 0.0], &mut gradient);
     assert_eq!(gradient, [0.0, -280.0]);
 
     // Other numbers are returned again, and v = 5·4 is computed from them: 0 + 0 + 0.5 − 20.
@@ -230,7 +221,7 @@ fn what_is_computed_from_other_numbers_changes_with_them() {
     Definition::data(&joint, &mut numbers);
     assert_eq!(numbers, [5.0, 4.0]);
     let mut phi = [0.0];
-    Positions::phi(&joint, &[Pose::new(4.0, 0.0, 0.5)], &[], &mut phi);
+    Element::phi(&joint, &[Pose::new(4.0, 0.0, 0.5)], &[], &mut phi);
     assert_eq!(phi, [-19.5]);
 }
 
@@ -288,7 +279,7 @@ fn quotients_of_data_have_their_derivatives() {
 
     let x = [Pose::GROUND, Pose::new(6.0, 8.0, -0.5)];
     let mut found = [0.0; 8];
-    Element::d_phi_dp(&joint, &x, &[], &[1.0], &mut found);
+    joint.slopes(&x, &[], Sloped::Phi).phi(&[1.0], &mut found);
     // Φ = along·(p − start) + square/2: by the start −along, by along p − start, then square/2 by
     // each factor.
     let half = 0.5 * 0.075;
@@ -410,15 +401,15 @@ fn a_joint_in_space_by_hand() {
     ];
     pin.initialise(&x);
     let mut phi = [0.0; 3];
-    Positions::phi(&pin, &x, &[], &mut phi);
+    Element::phi(&pin, &x, &[], &mut phi);
     assert_eq!(phi, [0.75, 4.0, 0.0]);
-    assert_eq!(Element::<f64, _>::place(&pin, &x), [1.0; 3]);
+    assert_eq!(Reaction::<f64, _>::place(&pin, &x), [1.0; 3]);
 
     let mut turn = pin.turn_drive();
     turn.initialise(&[Pose::GROUND; 2]);
     let mut phi = [0.0];
     // sin(90° − f) for f = 0, given by its cosine and sine.
-    Positions::phi(&turn, &x, &[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]], &mut phi);
+    Element::phi(&turn, &x, &[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]], &mut phi);
     assert_eq!(phi, [1.0]);
     assert_eq!(SlottedPin::SPEC.measures.len(), 1);
 }

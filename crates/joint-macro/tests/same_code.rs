@@ -3,7 +3,7 @@
 //! those of the crate `joints`, bit for bit.
 
 use joints::{
-    Argument, Constraint, ConstraintSpec, Force, ForceSpec, Pose, Twist, Visitor,
+    Argument, Constraint, ConstraintSpec, Force, ForceSpec, Pose, Sloped, Twist, Visitor,
     plane_constraints, plane_forces,
 };
 
@@ -197,8 +197,10 @@ fn constraint_bits<K: Constraint>(seed: u64) -> Vec<u64> {
     call(&|o| k.d_gamma_dv(&x, &v, &f, o));
     call(&|o| k.d_velocity_dx(&x, &v, &f, o));
     call(&|o| k.data(o));
-    call(&|o| k.d_phi_dp(&x, &f, &lambda, o));
-    call(&|o| k.d_residual_dp(&x, &v, &a, &f, &lambda, o));
+    let slopes = k.slopes(&x, &f, Sloped::All(&v));
+    let accelerations: Vec<f64> = a.iter().flat_map(|a| [a.x, a.y, a.omega]).collect();
+    call(&|o| slopes.phi(&lambda, &mut o[..spec.n_data()]));
+    call(&|o| slopes.residual(&lambda, &accelerations, &mut o[..spec.n_data()]));
     let mut numbers = [0.0; BUFFER];
     k.data(&mut numbers);
     numbers.iter_mut().for_each(|number| *number += 0.25);

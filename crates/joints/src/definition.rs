@@ -5,10 +5,12 @@ use crate::space::{Plane, Space};
 /// A definition with values for its parameters and the values stored at the start.
 pub trait Definition<S: Space = Plane>: Send + Sync {
     /// Stores the values that the definition takes from the assembled start.
-    fn initialise(&mut self, x: &[S::Pose<f64>]);
+    fn initialise(&mut self, _x: &[S::Pose<f64>]) {}
 
     /// Whether requirement `k` of the definition holds at the assembled start.
-    fn requirement(&self, k: usize, x: &[S::Pose<f64>]) -> bool;
+    fn requirement(&self, _k: usize, _x: &[S::Pose<f64>]) -> bool {
+        true
+    }
 
     /// Cosine, sine and rate (rad/s) of counted angle `k` since the start: of the angles that
     /// kernels are given with their turns, or of the angle in space that a drive prescribes. Those

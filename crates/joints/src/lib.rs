@@ -4,8 +4,10 @@
 //!
 //! | module | content |
 //! | --- | --- |
+//! | [`program`] | rows as programs that run in any number type |
 //! | [`ring`] | the number types of kernels |
 //! | [`recorded`] | a number type that records its operations |
+//! | [`slopes`] | derivatives by dual numbers |
 //! | [`space`] | the plane and space as types |
 //! | [`plane`], [`space3`] | poses and twists of bodies, and directions fixed in them |
 //! | [`spec`] | specifications of definitions: rows, parameters, patterns, counts |
@@ -24,22 +26,26 @@ pub mod force;
 pub mod former;
 pub mod generated;
 pub mod plane;
+pub mod program;
 pub mod recorded;
 pub mod ring;
+pub mod slopes;
 pub mod space;
 pub mod space3;
 pub mod spec;
 pub mod visitor;
 
 pub use arguments::{Argument, ArgumentError, LARGEST, is_usable};
-pub use constraint::{Constraint, Derivatives, Element, Positions};
+pub use constraint::{Constraint, ConstraintKernels, Element, Reaction};
 pub use definition::Definition;
 pub use force::{Force, ForceElement};
 pub use former::{FORMER_TYPES, FormerType};
 pub use generated::*;
 pub use plane::{Direction, Line, Pose, Twist};
+pub use program::{Programs, Rows};
 pub use recorded::Recorded;
-pub use ring::{Magnitude, Real, Ring};
+pub use ring::{Magnitude, Real, Ring, Scalar};
+pub use slopes::{Sloped, Slopes};
 pub use space::{Plane, Space, Space3};
 pub use spec::{ConstraintSpec, ForceSpec};
 pub use visitor::Visitor;

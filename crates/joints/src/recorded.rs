@@ -7,7 +7,7 @@
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::ring::Real;
+use crate::ring::{Real, Scalar};
 
 /// Index of an operation on the tape of the present recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,6 +85,13 @@ impl Recorded {
 impl From<f64> for Recorded {
     fn from(x: f64) -> Self {
         Self::push(Operation::Number(x))
+    }
+}
+
+/// What a constraint stores is an input: its rows are recorded for all constraints of its kind.
+impl Scalar for Recorded {
+    fn stored(_: f64, place: usize) -> Self {
+        Self::input(place)
     }
 }
 

@@ -1,5 +1,5 @@
-//! Number types of kernels: `f64` for motion, double-double for certificates, dual numbers for
-//! tests.
+//! Number types of kernels: `f64` for motion, numbers that record for all else, dual numbers for
+//! tests; programs run in rings.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -15,6 +15,18 @@ impl<T> Ring for T where
     T: Copy + From<f64> + Add<Output = T> + Sub<Output = T> + Mul<Output = T> + Neg<Output = T>
 {
 }
+
+/// A number type in which the rows of constraints are compiled.
+pub trait Scalar: Ring {
+    /// A number that a constraint stores, as its rows read it: the one at this place of
+    /// [`crate::ConstraintKernels::stored`].
+    #[must_use]
+    fn stored(value: f64, _place: usize) -> Self {
+        Self::from(value)
+    }
+}
+
+impl Scalar for f64 {}
 
 /// Additional operations needed by force kernels: square roots for distances, quotients for
 /// directions.

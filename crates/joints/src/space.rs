@@ -19,6 +19,24 @@ pub trait Space: Copy + Debug + Send + Sync + 'static {
     type Pose<T: Ring>: Copy;
     /// Velocity of a body.
     type Twist<T: Ring>: Copy;
+    /// Number of numbers of a pose.
+    const N_POSE: usize;
+
+    /// The pose of these numbers.
+    fn pose<T: Ring>(numbers: &[T]) -> Self::Pose<T>;
+
+    /// Adds the numbers of a pose to `out`.
+    fn numbers_of_pose<T: Ring>(pose: &Self::Pose<T>, out: &mut Vec<T>);
+
+    /// Writes the rates of the numbers of a pose that moves at 1 m/s or 1 rad/s along one degree of
+    /// freedom.
+    fn rates_of_pose(pose: &Self::Pose<f64>, dof: usize, out: &mut [f64]);
+
+    /// The twist of these velocities.
+    fn twist<T: Ring>(velocities: &[T]) -> Self::Twist<T>;
+
+    /// Adds the velocities of a twist to `out`.
+    fn numbers_of_twist<T: Ring>(twist: &Self::Twist<T>, out: &mut Vec<T>);
 }
 
 /// The plane: bodies have three velocities.
@@ -35,6 +53,41 @@ impl Space for Plane {
     type Vector<T: Ring> = [T; 2];
     type Pose<T: Ring> = plane::Pose<T>;
     type Twist<T: Ring> = plane::Twist<T>;
+    const N_POSE: usize = 5;
+
+    fn pose<T: Ring>(numbers: &[T]) -> plane::Pose<T> {
+        plane::Pose {
+            x: numbers[0],
+            y: numbers[1],
+            angle: numbers[2],
+            cos: numbers[3],
+            sin: numbers[4],
+        }
+    }
+
+    fn numbers_of_pose<T: Ring>(pose: &plane::Pose<T>, out: &mut Vec<T>) {
+        out.extend([pose.x, pose.y, pose.angle, pose.cos, pose.sin]);
+    }
+
+    fn rates_of_pose(pose: &plane::Pose, dof: usize, out: &mut [f64]) {
+        out.fill(0.0);
+        out[dof] = 1.0;
+        if dof == 2 {
+            (out[3], out[4]) = (-pose.sin, pose.cos);
+        }
+    }
+
+    fn twist<T: Ring>(velocities: &[T]) -> plane::Twist<T> {
+        plane::Twist {
+            x: velocities[0],
+            y: velocities[1],
+            omega: velocities[2],
+        }
+    }
+
+    fn numbers_of_twist<T: Ring>(twist: &plane::Twist<T>, out: &mut Vec<T>) {
+        out.extend([twist.x, twist.y, twist.omega]);
+    }
 }
 
 impl Space for Space3 {
@@ -43,4 +96,43 @@ impl Space for Space3 {
     type Vector<T: Ring> = [T; 3];
     type Pose<T: Ring> = space3::Pose<T>;
     type Twist<T: Ring> = space3::Twist<T>;
+    const N_POSE: usize = 12;
+
+    fn pose<T: Ring>(numbers: &[T]) -> space3::Pose<T> {
+        space3::Pose {
+            r: [numbers[0], numbers[1], numbers[2]],
+            rot: [3, 6, 9].map(|k| [numbers[k], numbers[k + 1], numbers[k + 2]]),
+        }
+    }
+
+    fn numbers_of_pose<T: Ring>(pose: &space3::Pose<T>, out: &mut Vec<T>) {
+        out.extend(pose.r);
+        out.extend(pose.rot.iter().flatten());
+    }
+
+    /// `Ṙ = R·[ω]×`
+    fn rates_of_pose(pose: &space3::Pose, dof: usize, out: &mut [f64]) {
+        out.fill(0.0);
+        let Some(axis) = dof.checked_sub(3) else {
+            out[dof] = 1.0;
+            return;
+        };
+        // Along e_a the axes b and c, which follow it, turn into c and −b.
+        let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
+        for (row, out) in pose.rot.iter().zip(out[3..].chunks_exact_mut(3)) {
+            (out[b], out[c]) = (row[c], -row[b]);
+        }
+    }
+
+    fn twist<T: Ring>(velocities: &[T]) -> space3::Twist<T> {
+        space3::Twist {
+            v: [velocities[0], velocities[1], velocities[2]],
+            omega: [velocities[3], velocities[4], velocities[5]],
+        }
+    }
+
+    fn numbers_of_twist<T: Ring>(twist: &space3::Twist<T>, out: &mut Vec<T>) {
+        out.extend(twist.v);
+        out.extend(twist.omega);
+    }
 }

@@ -317,6 +317,13 @@ impl ConstraintSpec {
         }
     }
 
+    /// Number of values with derivatives that its kernels take as `f`: functions of time, of which
+    /// one may enter by cosine and sine, and three for each counted angle.
+    #[must_use]
+    pub fn n_jets(&self) -> usize {
+        self.common.functions().count() + usize::from(self.turning) + 3 * self.turns
+    }
+
     /// Number of its nonholonomic rows, which follow the holonomic ones.
     #[must_use]
     pub const fn nonholonomic(&self) -> usize {

@@ -17,10 +17,12 @@ mod facts;
 mod polynomial;
 mod side;
 
-use joints::{Plane, Space3};
+use std::sync::{Arc, OnceLock};
+
+use joints::Programs;
 
 use crate::body::BodyRef;
-use crate::element::{BodySpace, ConstraintKernels, Kinematics};
+use crate::element::{BodySpace, Kinematics};
 pub(crate) use facts::TYPE;
 use facts::facts;
 use polynomial::Polynomial;
@@ -39,6 +41,8 @@ struct Coupling<S: BodySpace> {
     sides: [Side<S>; 2],
     law: Polynomial,
     facts: &'static facts::Facts,
+    /// Its rows for all that does not move, recorded when first asked for.
+    programs: OnceLock<Arc<Programs>>,
 }
 
 /// The constraint by which the second measure follows the first: their changes since the start
@@ -51,10 +55,7 @@ struct Coupling<S: BodySpace> {
 pub(crate) fn couple<S: Kinematics>(
     measures: [Measured<S>; 2],
     coefficients: &[f64],
-) -> Result<Placed<S>, CouplingError>
-where
-    Coupling<S>: ConstraintKernels<S>,
-{
+) -> Result<Placed<S>, CouplingError> {
     let law = Polynomial::new(coefficients).ok_or(CouplingError::Coefficients)?;
     // The first body is that of the joint of y, where the load of the coupling acts.
     let mut bodies: Vec<BodyRef> = measures[1].0.clone();
@@ -91,39 +92,16 @@ where
     );
     let first = [0, x.spec().n_data()];
     let turns = [0, usize::from(x.spec().turning)];
-    let x = Side::new(x, slots[0], first[0], turns[0], facts);
-    let y = Side::new(y, slots[1], first[1], turns[1], facts);
+    let x = Side::new(x, slots[0], [first[0], 0], turns[0], facts);
+    let y = Side::new(y, slots[1], [first[1], x.stored.end], turns[1], facts);
     let coupling = Coupling {
         sides: [x, y],
         law,
         facts,
+        programs: OnceLock::new(),
     };
     Ok((bodies, Box::new(coupling)))
 }
-
-/// The kernels of a coupling as those of a constraint of a space. A downstream crate might make a
-/// coupling a definition of its own space, so this cannot be said of all spaces at once.
-macro_rules! constraint_kernels {
-    ($space:ident) => {
-        impl ConstraintKernels<$space> for Coupling<$space> {
-            fn extended(&self) -> &dyn joints::Positions<linalg::Dd, $space> {
-                self
-            }
-            fn magnitude(&self) -> &dyn joints::Positions<joints::Magnitude, $space> {
-                self
-            }
-            fn recorded(&self) -> &dyn joints::Element<joints::Recorded, $space> {
-                self
-            }
-            fn boxed(&self) -> Box<dyn ConstraintKernels<$space>> {
-                Box::new(self.clone())
-            }
-        }
-    };
-}
-
-constraint_kernels!(Plane);
-constraint_kernels!(Space3);
 
 #[cfg(test)]
 mod tests;

@@ -11,7 +11,7 @@ use std::ops::Range;
 
 use joints::spec::DatumShape;
 
-use crate::element::{OwnRates, PlacedConstraint};
+use crate::element::PlacedConstraint;
 use crate::mechanism::Mechanism;
 use crate::rounding::ROUNDING;
 use crate::rows::RowRanges;
@@ -234,10 +234,10 @@ impl<'m> Data<'m> {
     /// Adds the gradient of `λᵀ·C·v` with respect to all numbers of the constraints, times
     /// `factor`, to `out`; `lambda` has m + h values, `v` n_v. Needs the poses of the scratch.
     pub fn add_power(self, s: &Scratch, lambda: &[f64], v: &[f64], factor: f64, out: &mut [f64]) {
-        let mut rates = OwnRates::default();
+        let mut rates = Vec::new();
         self.add((lambda, RowRanges::clone), factor, out, |c, lambda, own| {
-            rates.take(&c.site, v);
-            c.d_power_dp(&s.slots, &mut rates, lambda, own);
+            c.site.own_rates(v, &mut rates);
+            c.slopes_of_c(&s.slots).power(lambda, &rates, own);
         });
     }
 
@@ -249,7 +249,7 @@ impl<'m> Data<'m> {
             nonholonomic: 0..0,
         };
         self.add((lambda, of_phi), factor, out, |c, lambda, own| {
-            c.d_phi_dp(&s.slots, lambda, own);
+            c.slopes_of_phi(&s.slots).phi(lambda, own);
         });
     }
 

@@ -205,7 +205,7 @@ impl<S: BodySpace> Visitor<S> for Definitions<S> {
 fn build_constraint<K: Constraint<S>, S: BodySpace>(
     arguments: &[Argument],
 ) -> Result<Box<dyn ConstraintKernels<S>>, ArgumentError> {
-    Ok(Box::new(K::from_arguments(arguments)?))
+    Ok(K::from_arguments(arguments)?.boxed())
 }
 
 fn build_law<K: Constraint<S>, S: BodySpace>(

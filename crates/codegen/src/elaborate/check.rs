@@ -147,7 +147,7 @@ fn not_linear(model: &mut Model, e: Expr) -> bool {
     })
 }
 
-pub(crate) fn not_polynomial(model: &mut Model, e: Expr) -> bool {
+fn not_polynomial(model: &mut Model, e: Expr) -> bool {
     let e = model.expand(e);
     let mut seen = std::collections::BTreeSet::new();
     let mut stack = vec![e];

@@ -30,8 +30,6 @@ pub(crate) enum Source {
     Parameter { access: String },
     /// A value kept from the start, with the tokens that read it.
     Kept { field: String, access: String },
-    /// A derivative of a computed number, with the tokens that compute it.
-    Slope { access: String },
     /// A multiplier.
     Lambda { row: usize },
 }
@@ -62,14 +60,11 @@ impl Source {
                 let row = index(*row);
                 quote!(lambda[#row])
             }
-            Self::Parameter { access } | Self::Kept { access, .. } | Self::Slope { access } => {
+            Self::Parameter { access } | Self::Kept { access, .. } => {
                 access.parse().expect("written by this crate")
             }
         };
-        let is_f64 = matches!(
-            self,
-            Self::Parameter { .. } | Self::Kept { .. } | Self::Slope { .. }
-        );
+        let is_f64 = matches!(self, Self::Parameter { .. } | Self::Kept { .. });
         (tokens, is_f64)
     }
 }
@@ -334,11 +329,6 @@ impl Inputs {
             (first + 2, "known_sin"),
         ]
         .map(|(index, part)| self.add(g, &format!("{name}_{part}"), Source::Counted { index }))
-    }
-
-    /// A symbol for a derivative that is not a polynomial; `access` are the tokens that compute it.
-    pub(crate) fn slope(&mut self, g: &mut Graph, name: &str, access: String) -> Expr {
-        self.add(g, name, Source::Slope { access })
     }
 
     /// Values of a parameter: one number each, two components of a point or a direction.

@@ -4,8 +4,13 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::parts::{self, index};
-use crate::data::{Datum, Shape};
+use symbolic::{Expr, Scalar, Symbol};
+
+use crate::data::{Datum, Shape, read_by, slopes};
+use crate::defined::Along;
+use crate::derive::ConstraintKernels;
 use crate::elaborate::Model;
+use crate::kernel::kernel;
 use crate::parse::Definition;
 
 /// The list of data.
@@ -41,6 +46,107 @@ pub(super) fn facts(d: &Definition, data: &[Datum]) -> TokenStream {
         quote!(Datum::new(#name, DatumShape::#shape, #at, #count))
     });
     quote!(&[#(#data),*])
+}
+
+/// The numbers that the rows of a constraint read of it, and their derivatives by its data.
+pub(super) struct Stored {
+    pub(super) symbols: Vec<Symbol>,
+    slopes: Vec<(usize, usize, Expr)>,
+}
+
+impl Stored {
+    pub(super) fn of(model: &mut Model, kernels: &ConstraintKernels, data: &[Along]) -> Self {
+        let symbols = read_by(model, kernels.rows());
+        let slopes = slopes(model, &symbols, data);
+        Self { symbols, slopes }
+    }
+
+    /// How many of these slopes, the first included, say that a stored number is a datum itself,
+    /// one after the other.
+    fn run_of_numbers(model: &Model, slopes: &[(usize, usize, Expr)]) -> usize {
+        let [(first, by, _), ..] = slopes else {
+            return 0;
+        };
+        let numbers = slopes
+            .iter()
+            .enumerate()
+            .take_while(|(k, (place, number, value))| {
+                (*place, *number) == (first + k, by + k) && model.g.as_number(*value) == Some(1.0)
+            });
+        numbers.count()
+    }
+
+    /// The statements that read the numbers; components of one array are read at once.
+    fn reads(&self, model: &Model) -> Vec<TokenStream> {
+        let mut runs: Vec<(String, usize)> = Vec::new();
+        for &symbol in &self.symbols {
+            let (access, _) = model.inputs.source(symbol).access();
+            let access = access.to_string();
+            match runs.last_mut() {
+                Some((array, n)) if access == format!("{array} [{n}]") => *n += 1,
+                _ => match access.strip_suffix(" [0]") {
+                    Some(array) => runs.push((array.to_owned(), 1)),
+                    None => runs.push((access, 0)),
+                },
+            }
+        }
+        let reads = runs.iter().map(|(access, n)| {
+            let access: TokenStream = access.parse().expect("written by this crate");
+            let count = index(*n);
+            match n {
+                0 => quote!(out.push(#access);),
+                _ => quote!(out.extend_from_slice(&#access[..#count]);),
+            }
+        });
+        reads.collect()
+    }
+
+    /// `programs`, `stored` and `d_stored_dp`.
+    pub(super) fn methods(&self, model: &Model) -> TokenStream {
+        let reads = self.reads(model);
+        let values: Vec<Expr> = self.slopes.iter().map(|(.., value)| *value).collect();
+        let kernel = kernel(model, &values, Scalar::F64);
+        let statements = &kernel.statements;
+        let mut entries = Vec::new();
+        let mut rest = &self.slopes[..];
+        while let [(place, number, _), ..] = rest {
+            let (first, by) = (index(*place), index(*number));
+            let run = Self::run_of_numbers(model, rest);
+            let count = index(run);
+            let value = &kernel.outputs[self.slopes.len() - rest.len()];
+            entries.push(match run {
+                0 | 1 => quote!(entry(#first, #by, #value);),
+                _ => {
+                    let (place, number) = (shifted(*place), shifted(*number));
+                    quote!((0..#count).for_each(|k| entry(#place, #number, 1.0));)
+                }
+            });
+            rest = &rest[run.max(1)..];
+        }
+        let count = index(self.symbols.len());
+        quote! {
+            fn programs(&self) -> &Programs {
+                static PROGRAMS: OnceLock<Programs> = OnceLock::new();
+                PROGRAMS.get_or_init(|| Programs::record(self, #count))
+            }
+            fn stored(&self, out: &mut Vec<f64>) {
+                #(#reads)*
+            }
+            fn d_stored_dp(&self, entry: &mut dyn FnMut(usize, usize, f64)) {
+                #(#statements)*
+                #(#entries)*
+            }
+        }
+    }
+}
+
+/// `k` after so many.
+fn shifted(first: usize) -> TokenStream {
+    let first_index = index(first);
+    match first {
+        0 => quote!(k),
+        _ => quote!(#first_index + k),
+    }
 }
 
 /// `data` and `set_data`.

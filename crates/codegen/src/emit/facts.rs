@@ -65,12 +65,12 @@ pub(super) fn constraint_spec(
     let turns = index(t.turns);
     let wrench = pattern(&k.wrench);
     let d_force_dx = pattern(&k.d_force_dx);
-    let d_residual_dx = pattern(&k.d_residual_dx);
-    let d_gamma_dv = pattern(&k.d_gamma_dv);
-    let d_velocity_dx = pattern(&k.d_velocity_dx);
+    let (shared, [d_residual_dx, d_gamma_dv, d_velocity_dx]) = of_rows(k);
     let data = data::facts(d, &t.data);
     quote! {
-        const SPEC: ConstraintSpec = ConstraintSpec {
+        const SPEC: ConstraintSpec = {
+            #shared
+            ConstraintSpec {
             common: #common,
             role: #role,
             rows: &[#(#rows),*],
@@ -88,8 +88,25 @@ pub(super) fn constraint_spec(
             d_gamma_dv: #d_gamma_dv,
             d_velocity_dx: #d_velocity_dx,
             data: #data,
-        };
+        } };
     }
+}
+
+/// The patterns of the derivatives of rows. Most rows have one for all three: it is stated once.
+fn of_rows(k: &ConstraintKernels) -> (Option<TokenStream>, [TokenStream; 3]) {
+    let blocks = [&k.d_residual_dx, &k.d_gamma_dv, &k.d_velocity_dx];
+    let same = |a: &Sparse, b: &Sparse| a.iter().map(|e| e.0).eq(b.iter().map(|e| e.0));
+    let first = &k.d_residual_dx;
+    let is_shared = !first.is_empty() && blocks[1..].iter().any(|block| same(block, first));
+    let patterns = blocks.map(|block| match is_shared && same(block, first) {
+        true => quote!(ROWS_BY_X),
+        false => pattern(block),
+    });
+    let entries = pattern(first);
+    let shared = quote! {
+        const ROWS_BY_X: &[[usize; 2]] = #entries;
+    };
+    (is_shared.then_some(shared), patterns)
 }
 
 pub(super) fn force_spec(

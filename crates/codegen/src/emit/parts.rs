@@ -75,23 +75,25 @@ pub(super) fn uses(runtime: &TokenStream, space: Space, constraint: bool) -> Tok
                 Space::Plane => {
                     quote!(
                         Constraint,
+                        ConstraintKernels,
                         Definition,
-                        Derivatives,
                         Element,
-                        Positions,
+                        Programs,
+                        Reaction,
                         Real,
-                        Ring,
+                        Scalar,
                         Visitor
                     )
                 }
                 Space::Space3 => quote!(
                     Constraint,
+                    ConstraintKernels,
                     Definition,
-                    Derivatives,
                     Element,
-                    Positions,
+                    Programs,
+                    Reaction,
                     Real,
-                    Ring,
+                    Scalar,
                     Space3,
                     Visitor
                 ),
@@ -124,7 +126,13 @@ pub(super) fn uses(runtime: &TokenStream, space: Space, constraint: bool) -> Tok
         Space::Plane => quote!(plane::{Direction, Line, Pose, Twist}),
         Space::Space3 => quote!(space3::{Axes, Direction, GroundPlane, Pose, Twist}),
     };
+    let std = constraint.then(|| {
+        quote!(
+            use std::sync::OnceLock;
+        )
+    });
     quote! {
+        #std
         #[allow(unused_imports)]
         use #runtime::{#traits};
         #[allow(unused_imports)]
@@ -353,7 +361,7 @@ pub(super) fn from_arguments(d: &Definition, driven: Option<Driven>) -> TokenStr
 }
 
 /// The method that computes the values kept from the start. Each value may use those before it.
-pub(super) fn initialise(model: &Model, measure: Option<Measure>) -> TokenStream {
+pub(super) fn initialise(model: &Model, measure: Option<Measure>) -> Option<TokenStream> {
     let kept = model.kept.iter().map(|k| {
         let field = format_ident!("{}", k.field);
         if k.kind == Kept::Turn {
@@ -382,9 +390,12 @@ pub(super) fn initialise(model: &Model, measure: Option<Measure>) -> TokenStream
         Measure::Angle { sin, cos } => unit_turn(model, &format_ident!("measure_0"), &[cos, sin]),
         Measure::Kept(_) => TokenStream::new(),
     });
-    quote! {
-        fn initialise(&mut self, x: &[Pose]) { #(#kept)* #measure }
-    }
+    let keeps = !model.kept.is_empty() || measure.as_ref().is_some_and(|m| !m.is_empty());
+    keeps.then(|| {
+        quote! {
+            fn initialise(&mut self, x: &[Pose]) { #(#kept)* #measure }
+        }
+    })
 }
 
 /// Statements that keep cosine and sine of an angle, from those of axes that are nearly parallel.
@@ -437,7 +448,7 @@ pub(super) fn kept_value(model: &Model, k: &KeptValue) -> TokenStream {
 }
 
 /// The method that checks requirement `k`.
-pub(super) fn requirement(model: &Model) -> TokenStream {
+pub(super) fn requirement(model: &Model) -> Option<TokenStream> {
     let arms = model.requirements.iter().enumerate().map(|(k, condition)| {
         let mut scalars = Vec::new();
         collect(condition, &mut scalars);
@@ -446,26 +457,25 @@ pub(super) fn requirement(model: &Model) -> TokenStream {
         let (k, statements) = (index(k), &printed.statements);
         quote!(#k => { #(#statements)* #test })
     });
-    let body = if model.requirements.is_empty() {
-        quote!(true)
-    } else {
-        quote!(match k { #(#arms)* _ => true })
+    let method = quote! {
+        fn requirement(&self, k: usize, x: &[Pose]) -> bool { match k { #(#arms)* _ => true } }
     };
-    quote! {
-        fn requirement(&self, k: usize, x: &[Pose]) -> bool { #body }
-    }
+    (!model.requirements.is_empty()).then_some(method)
 }
 
 /// The method that returns the points at which the definition acts.
-pub(super) fn points(d: &Definition) -> TokenStream {
+pub(super) fn points(d: &Definition) -> Option<TokenStream> {
     let points = d.params.iter().filter_map(|p| match p.kind {
         ParamKind::Point(_) => Some(&p.name),
         _ => None,
     });
+    let points: Vec<&Ident> = points.collect();
     let vector = vector(d.space);
-    quote! {
-        fn points(&self) -> Vec<#vector> { vec![#(self.#points),*] }
-    }
+    (!points.is_empty()).then(|| {
+        quote! {
+            fn points(&self) -> Vec<#vector> { vec![#(self.#points),*] }
+        }
+    })
 }
 
 /// The method that returns the axes of a joint in space; none if its first body has none.

@@ -1,17 +1,19 @@
-//! The numbers that a constraint stores: read and put back, and the derivatives by them. Fields are
-//! plain numbers, so that no dual number goes through them: the references are differences through
-//! `set_data`, and, for the second kernel, dual numbers through the poses of the first.
+//! The numbers that a constraint stores: read and put back, and the derivatives by them. The
+//! references are differences through `set_data`, and dual numbers through the kernels, with the
+//! slopes that the constraint tells of its stored numbers.
 
 use joints::spec::{DatumShape, Unit};
 
 use super::{Kernel, OfConstraint};
 use crate::block::{Block, dot};
 use crate::bodies::Bodies;
-use crate::case::{Case, Motion};
+use crate::case::Motion;
 use crate::check::Check;
-use crate::derivative::{DualNumbers, by_differences};
+use crate::derivative::by_differences;
 use crate::failure::{Claim, Failure, Oracle, Property};
-use crate::subject::By;
+use crate::number::{Dual, with_slopes};
+use crate::state::Along;
+use crate::subject::Subject;
 
 /// Added to each number in turn: nothing that a case draws.
 const ANOTHER: f64 = 0.0625;
@@ -41,10 +43,10 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
             self.data_claim(Property::DPhiDp, Oracle::DIFFERENCES, &phi)?;
             self.data_claim(Property::DResidualDp, Oracle::DIFFERENCES, &residual)?;
         }
-        let case = self.on_holonomic_rows();
-        let of_phi = self.with(&case);
-        let residual = of_phi.each(|m| of_phi.residual_by_data(m));
-        of_phi.data_claim(Property::DResidualDp, Oracle::DUAL_NUMBERS, &residual)
+        let dual = |kernel| self.each(|m| self.by_stored(kernel, m));
+        let (phi, residual) = (dual(Kernel::Phi), dual(Kernel::Residual));
+        self.data_claim(Property::DPhiDp, Oracle::DUAL_NUMBERS, &phi)?;
+        self.data_claim(Property::DResidualDp, Oracle::DUAL_NUMBERS, &residual)
     }
 
     fn numbers(&self) -> Vec<f64> {
@@ -138,23 +140,22 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         Block::column((0..numbers.len()).map(slope).collect())
     }
 
-    /// The case with λ = 0 in the nonholonomic rows.
-    fn on_holonomic_rows(&self) -> Case<S> {
-        let mut case = self.case.clone();
-        for motion in &mut case.motions {
-            motion.lambda[self.of.spec.holonomic..].fill(0.0);
-        }
-        case
-    }
-
-    /// `∂(λᵀ·(C·a − Γ))/∂p` of holonomic rows from `g = ∂(λᵀ·Φ)/∂p`: `C·a − Γ` is the change
-    /// of Φ along a, bodies only, and its second derivative along `x + τv` and `t + τ`, so the same
-    /// holds for g.
-    fn residual_by_data(&self, m: &Motion) -> Block {
-        let by_pose = self.derivative::<DualNumbers>(Kernel::DPhiDp, By::Poses, m);
-        let along_v = self.derivative::<DualNumbers>(Kernel::DPhiDp, By::MotionTwice, m);
-        let along_a = by_pose.times(&m.a);
-        along_a.zip(&along_v, |a, v| a + v)
+    /// The derivatives of `λᵀ·kernel` by all numbers, by dual numbers through the kernel.
+    fn by_stored(&self, kernel: Kernel, motion: &Motion) -> Block {
+        let plain = self.made.plain();
+        let mut stored = Vec::new();
+        plain.stored(&mut stored);
+        let n = self.of.spec.n_data();
+        let mut slopes = vec![vec![0.0; stored.len()]; n];
+        plain.d_stored_dp(&mut |place, number, slope| slopes[number][place] += slope);
+        let of_number = |slopes: Vec<f64>| {
+            let rows = with_slopes(slopes, || {
+                let state = Along::Time.state(self.case, motion, Dual::from(0.0));
+                self.of.kernel(self.made, kernel, &state)
+            });
+            dot(rows.map(|e| e.0.v1).entries(), &motion.lambda)
+        };
+        Block::column(slopes.into_iter().map(of_number).collect())
     }
 
     fn data_claim(

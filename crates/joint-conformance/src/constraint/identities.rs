@@ -134,6 +134,69 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         Ok(())
     }
 
+    /// Programs are recorded from the kernels of one constraint and run for all of its kind.
+    pub(super) fn programs(&self) -> Result<(), Failure> {
+        let (plain, spec) = (self.made.plain(), self.of.spec);
+        let at = Along::Time.state::<S, f64>(self.case, &self.case.motions[0], 0.0);
+        let v = State::<S, f64>::twists(&at.v);
+        let (x, v, f) = (&at.x[..], &v[..], &at.f[..]);
+        let mut stored = Vec::new();
+        plain.stored(&mut stored);
+        let rows = plain.programs().of(&stored);
+        let agree = |n: usize, kernel: &dyn Fn(&mut [f64]), program: &dyn Fn(&mut [f64])| {
+            let bits = |write: &dyn Fn(&mut [f64])| {
+                let mut out = vec![f64::NAN; n];
+                write(&mut out);
+                out.into_iter().map(f64::to_bits).collect::<Vec<_>>()
+            };
+            bits(kernel) == bits(program)
+        };
+        let (m, entries) = (spec.rows.len(), spec.c.len());
+        let component = if spec.component.is_some() { m } else { 0 };
+        let all = [
+            (
+                "phi",
+                agree(spec.holonomic, &|o| plain.phi(x, f, o), &|o| {
+                    rows.phi::<S>(x, f, o)
+                }),
+            ),
+            (
+                "c",
+                agree(entries, &|o| plain.c(x, f, o), &|o| rows.c::<S>(x, f, o)),
+            ),
+            (
+                "c_constant",
+                agree(entries, &|o| plain.c_constant(o), &|o| {
+                    rows.c_constant::<S>(x, f, o)
+                }),
+            ),
+            (
+                "b",
+                agree(m, &|o| plain.b(x, f, o), &|o| rows.b::<S>(x, f, o)),
+            ),
+            (
+                "gamma",
+                agree(m, &|o| plain.gamma(x, v, f, o), &|o| {
+                    rows.gamma::<S>(x, v, f, o)
+                }),
+            ),
+            (
+                "component",
+                agree(component, &|o| plain.component(x, f, o), &|o| {
+                    rows.component::<S>(x, f, o)
+                }),
+            ),
+        ];
+        match all.iter().find(|(_, agrees)| !agrees) {
+            Some((kernel, _)) => Err(self.fact(
+                Property::Programs,
+                format!("program of `{kernel}`"),
+                [0.0, 1.0],
+            )),
+            None => Ok(()),
+        }
+    }
+
     /// Only where Φ = 0: elsewhere two points that should coincide give the pair of forces a lever.
     pub(super) fn rows_balance(&self) -> Result<(), Failure> {
         let ordinary = self.case.kind == Kind::Ordinary;

@@ -6,8 +6,8 @@ use joints::generated::{
 };
 use joints::spec::{ConstraintSpec, Datum, DatumShape, ForceSpec};
 use joints::{
-    Argument, ArgumentError, Constraint, Definition, Derivatives, Element, Force, ForceElement,
-    Pose, Positions, Real, Ring, Twist, Visitor,
+    Argument, ArgumentError, Constraint, ConstraintKernels, Definition, Element, Force,
+    ForceElement, Pose, Programs, Reaction, Real, Ring, Scalar, Twist, Visitor,
 };
 
 use crate::SEED;
@@ -33,8 +33,8 @@ mod wrong {
     pub(super) const D_VELOCITY_DX: u8 = 16;
     pub(super) const DATA: u8 = 17;
     pub(super) const SET_DATA: u8 = 18;
-    pub(super) const D_PHI_DP: u8 = 19;
-    pub(super) const D_RESIDUAL_DP: u8 = 20;
+    pub(super) const STORED: u8 = 19;
+    pub(super) const PROGRAM: u8 = 20;
     pub(super) const DATUM: u8 = 21;
     pub(super) const NORMALISED: u8 = 22;
 }
@@ -74,13 +74,10 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
         K::from_arguments(arguments).map(Self)
     }
     fn visit_drives<V: Visitor>(_: &mut V) {}
-    fn positions<T: Ring>(&self) -> &dyn Positions<T> {
+    fn element<T: Scalar>(&self) -> &dyn Element<T> {
         self
     }
-    fn element<T: Ring>(&self) -> &dyn Element<T> {
-        self
-    }
-    fn derivatives<T: Ring>(&self) -> &dyn Derivatives<T> {
+    fn reaction<T: Real>(&self) -> &dyn Reaction<T> {
         self
     }
 }
@@ -121,27 +118,24 @@ impl<K: Constraint, const WRONG: u8> Definition for Mutant<K, WRONG> {
     }
 }
 
-impl<T: Ring, K: Constraint, const WRONG: u8> Positions<T> for Mutant<K, WRONG> {
+impl<T: Scalar, K: Constraint, const WRONG: u8> Element<T> for Mutant<K, WRONG> {
     fn spec(&self) -> &'static ConstraintSpec {
         &<Self as Constraint>::SPEC
     }
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.positions::<T>().phi(x, f, out);
+        self.0.element::<T>().phi(x, f, out);
         change(out, WRONG == wrong::PHI);
     }
-    fn c_constant(&self, out: &mut [f64]) {
-        self.0.positions::<T>().c_constant(out);
+    fn c_constant(&self, out: &mut [T]) {
+        self.0.element::<T>().c_constant(out);
         change(out, WRONG == wrong::C_CONSTANT);
     }
     fn c(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         if WRONG != wrong::C_UNWRITTEN {
-            self.0.positions::<T>().c(x, f, out);
+            self.0.element::<T>().c(x, f, out);
         }
         change(out, WRONG == wrong::C);
     }
-}
-
-impl<T: Ring, K: Constraint, const WRONG: u8> Element<T> for Mutant<K, WRONG> {
     fn b(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.0.element::<T>().b(x, f, out);
         change(out, WRONG == wrong::B);
@@ -150,77 +144,71 @@ impl<T: Ring, K: Constraint, const WRONG: u8> Element<T> for Mutant<K, WRONG> {
         self.0.element::<T>().gamma(x, v, f, out);
         change(out, WRONG == wrong::GAMMA);
     }
-    fn wrench(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T])
-    where
-        T: Real,
-    {
-        self.0.element::<T>().wrench(x, f, out);
-        change(out, WRONG == wrong::WRENCH);
-    }
     fn component(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.0.element::<T>().component(x, f, out);
         if WRONG == wrong::COMPONENT {
             out.iter_mut().for_each(|e| *e = *e + *e);
         }
     }
-    fn place(&self, x: &[Pose<T>]) -> [T; 2]
-    where
-        T: Real,
-    {
-        let [x_p, y_p] = self.0.element::<T>().place(x);
+}
+
+impl<T: Real, K: Constraint, const WRONG: u8> Reaction<T> for Mutant<K, WRONG> {
+    fn wrench(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.reaction::<T>().wrench(x, f, out);
+        change(out, WRONG == wrong::WRENCH);
+    }
+    fn place(&self, x: &[Pose<T>]) -> [T; 2] {
+        let [x_p, y_p] = self.0.reaction::<T>().place(x);
         if WRONG == wrong::PLACE {
             [y_p, x_p]
         } else {
             [x_p, y_p]
         }
     }
-    fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
-        self.0.element::<T>().d_phi_dp(x, f, lambda, out);
-        change(out, WRONG == wrong::D_PHI_DP);
-    }
 }
 
-impl<T: Ring, K: Constraint, const WRONG: u8> Derivatives<T> for Mutant<K, WRONG> {
-    fn d_force_dx(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
-        self.0.derivatives::<T>().d_force_dx(x, f, lambda, out);
+impl<K: Constraint, const WRONG: u8> ConstraintKernels for Mutant<K, WRONG> {
+    fn programs(&self) -> &Programs {
+        if WRONG != wrong::PROGRAM {
+            return self.0.programs();
+        }
+        let mut stored = Vec::new();
+        self.stored(&mut stored);
+        let other = Mutant::<K, { wrong::B }>(self.0.clone());
+        Box::leak(Box::new(Programs::record(&other, stored.len())))
+    }
+    fn stored(&self, out: &mut Vec<f64>) {
+        self.0.stored(out);
+    }
+    fn d_stored_dp(&self, entry: &mut dyn FnMut(usize, usize, f64)) {
+        let mut is_changed = WRONG == wrong::STORED;
+        self.0.d_stored_dp(&mut |place, number, slope| {
+            let mut slope = [slope];
+            change(&mut slope, is_changed);
+            is_changed = false;
+            entry(place, number, slope[0]);
+        });
+    }
+    fn d_force_dx(&self, x: &[Pose], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
+        self.0.d_force_dx(x, f, lambda, out);
         change(out, WRONG == wrong::D_FORCE_DX);
     }
-    fn d_residual_dx(
-        &self,
-        x: &[Pose<T>],
-        v: &[Twist<T>],
-        a: &[Twist<T>],
-        f: &[[T; 3]],
-        out: &mut [T],
-    ) {
-        let mut all = vec![T::from(0.0); K::SPEC.d_residual_dx.len()];
-        self.0
-            .derivatives::<T>()
-            .d_residual_dx(x, v, a, f, &mut all);
+    fn d_residual_dx(&self, x: &[Pose], v: &[Twist], a: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
+        let mut all = vec![0.0; K::SPEC.d_residual_dx.len()];
+        self.0.d_residual_dx(x, v, a, f, &mut all);
         out.copy_from_slice(&all[all.len() - out.len()..]);
         change(out, WRONG == wrong::D_RESIDUAL_DX);
     }
-    fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.derivatives::<T>().d_gamma_dv(x, v, f, out);
+    fn d_gamma_dv(&self, x: &[Pose], v: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
+        self.0.d_gamma_dv(x, v, f, out);
         change(out, WRONG == wrong::D_GAMMA_DV);
     }
-    fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
-        self.0.derivatives::<T>().d_velocity_dx(x, v, f, out);
+    fn d_velocity_dx(&self, x: &[Pose], v: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
+        self.0.d_velocity_dx(x, v, f, out);
         change(out, WRONG == wrong::D_VELOCITY_DX);
     }
-    fn d_residual_dp(
-        &self,
-        x: &[Pose<T>],
-        v: &[Twist<T>],
-        a: &[Twist<T>],
-        f: &[[T; 3]],
-        lambda: &[T],
-        out: &mut [T],
-    ) {
-        self.0
-            .derivatives::<T>()
-            .d_residual_dp(x, v, a, f, lambda, out);
-        change(out, WRONG == wrong::D_RESIDUAL_DP);
+    fn boxed(&self) -> Box<dyn ConstraintKernels> {
+        Box::new(self.clone())
     }
 }
 
@@ -439,19 +427,15 @@ fn a_wrong_derivative_by_the_data_is_named() {
             P::Data,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::D_RESIDUAL_DP }>, _>(SEED)),
-            P::DResidualDp,
+            found(check_constraint::<Drive<{ wrong::PROGRAM }>, _>(SEED)),
+            P::Programs,
         ),
         (
-            found(check_constraint::<Drive<{ wrong::D_PHI_DP }>, _>(SEED)),
+            found(check_constraint::<Drive<{ wrong::STORED }>, _>(SEED)),
             P::DPhiDp,
         ),
         (
-            found(check_constraint::<Edge<{ wrong::D_PHI_DP }>, _>(SEED)),
-            P::DPhiDp,
-        ),
-        (
-            found(check_constraint::<Edge<{ wrong::D_RESIDUAL_DP }>, _>(SEED)),
+            found(check_constraint::<Edge<{ wrong::STORED }>, _>(SEED)),
             P::DResidualDp,
         ),
     ];

@@ -69,10 +69,6 @@ impl Force for BodyPointForce {
 }
 #[allow(unused_variables)]
 impl Definition for BodyPointForce {
-    fn initialise(&mut self, x: &[Pose]) {}
-    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        true
-    }
     fn points(&self) -> Vec<[f64; 2]> {
         vec![self.s]
     }

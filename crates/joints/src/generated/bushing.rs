@@ -200,9 +200,6 @@ impl Definition for Bushing {
             -(angle_i - angle_j)
         };
     }
-    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        true
-    }
     fn points(&self) -> Vec<[f64; 2]> {
         vec![self.s_i, self.s_j]
     }

@@ -141,7 +141,6 @@ impl Force for Damper {
 }
 #[allow(unused_variables)]
 impl Definition for Damper {
-    fn initialise(&mut self, x: &[Pose]) {}
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         match k {
             0 => {

@@ -56,15 +56,7 @@ impl Force for Torque {
     }
 }
 #[allow(unused_variables)]
-impl Definition for Torque {
-    fn initialise(&mut self, x: &[Pose]) {}
-    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        true
-    }
-    fn points(&self) -> Vec<[f64; 2]> {
-        vec![]
-    }
-}
+impl Definition for Torque {}
 #[allow(unused_variables)]
 impl<T: Real> ForceElement<T> for Torque {
     fn spec(&self) -> &'static ForceSpec {

@@ -56,15 +56,7 @@ impl Force for TorqueBetween {
     }
 }
 #[allow(unused_variables)]
-impl Definition for TorqueBetween {
-    fn initialise(&mut self, x: &[Pose]) {}
-    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        true
-    }
-    fn points(&self) -> Vec<[f64; 2]> {
-        vec![]
-    }
-}
+impl Definition for TorqueBetween {}
 #[allow(unused_variables)]
 impl<T: Real> ForceElement<T> for TorqueBetween {
     fn spec(&self) -> &'static ForceSpec {

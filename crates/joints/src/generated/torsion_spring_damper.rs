@@ -102,12 +102,6 @@ impl Definition for TorsionSpringDamper {
             }
         };
     }
-    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        true
-    }
-    fn points(&self) -> Vec<[f64; 2]> {
-        vec![]
-    }
 }
 #[allow(unused_variables)]
 impl<T: Real> ForceElement<T> for TorsionSpringDamper {

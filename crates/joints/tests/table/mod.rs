@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use joints::space3::{self, Axes};
 use joints::spec::{Shape, Spec};
-use joints::{Argument, Plane, Pose, Space, Space3, Twist};
+use joints::{Argument, Plane, Pose, Space, Space3};
 use serde::Deserialize;
 
 /// One pose with the numbers computed for it.
@@ -55,9 +55,7 @@ pub(crate) trait Tabled: Space {
     /// Folder of its tables.
     const FOLDER: &'static str;
     /// A pose: x, y, angle, or x, y, z and a quaternion of any length.
-    fn pose(numbers: &[f64]) -> Self::Pose<f64>;
-    /// A twist: its degrees of freedom in order.
-    fn twist(numbers: &[f64]) -> Self::Twist<f64>;
+    fn tabled_pose(numbers: &[f64]) -> Self::Pose<f64>;
     /// A point or a vector.
     fn vector(numbers: &[f64]) -> Argument;
     /// Two vectors: points of a line of the ground, or an axis and a vector across it.
@@ -66,12 +64,8 @@ pub(crate) trait Tabled: Space {
 
 impl Tabled for Plane {
     const FOLDER: &'static str = "";
-    fn pose(numbers: &[f64]) -> Pose {
+    fn tabled_pose(numbers: &[f64]) -> Pose {
         Pose::new(numbers[0], numbers[1], numbers[2])
-    }
-    fn twist(numbers: &[f64]) -> Twist {
-        let [x, y, omega] = [0, 1, 2].map(|k| numbers[k]);
-        Twist { x, y, omega }
     }
     fn vector(numbers: &[f64]) -> Argument {
         Argument::Pair([numbers[0], numbers[1]])
@@ -83,17 +77,11 @@ impl Tabled for Plane {
 
 impl Tabled for Space3 {
     const FOLDER: &'static str = "space";
-    fn pose(numbers: &[f64]) -> space3::Pose {
+    fn tabled_pose(numbers: &[f64]) -> space3::Pose {
         space3::Pose::new(
             [0, 1, 2].map(|k| numbers[k]),
             [3, 4, 5, 6].map(|k| numbers[k]),
         )
-    }
-    fn twist(numbers: &[f64]) -> space3::Twist {
-        space3::Twist {
-            v: [0, 1, 2].map(|k| numbers[k]),
-            omega: [3, 4, 5].map(|k| numbers[k]),
-        }
     }
     fn vector(numbers: &[f64]) -> Argument {
         Argument::Triple([0, 1, 2].map(|k| numbers[k]))
@@ -210,7 +198,7 @@ impl Golden {
 
 fn poses<S: Tabled>(x: &[Vec<Scalar>]) -> Vec<S::Pose<f64>> {
     let numbers = |x: &Vec<Scalar>| x.iter().map(Scalar::value).collect::<Vec<f64>>();
-    x.iter().map(|x| S::pose(&numbers(x))).collect()
+    x.iter().map(|x| S::tabled_pose(&numbers(x))).collect()
 }
 
 impl Scalar {

@@ -128,34 +128,19 @@ impl<S: Acted> ForceElement<f64, S> for CalledWrench {
     }
 }
 
-type Poses<'a, S> = &'a [<S as Space>::Pose<Recorded>];
-type Twists<'a, S> = &'a [<S as Space>::Twist<Recorded>];
-
-/// A function that is called cannot be recorded: generators of code refuse it.
-impl<S: Acted> ForceElement<Recorded, S> for CalledWrench {
-    fn spec(&self) -> &'static ForceSpec {
-        &Facts::<S>::SPEC
-    }
-
-    fn q(&self, _: Poses<'_, S>, _: Twists<'_, S>, _: &[[Recorded; 3]], out: &mut [Recorded]) {
-        out.fill(f64::NAN.into());
-    }
-
-    fn dq_dx(&self, _: Poses<'_, S>, _: Twists<'_, S>, _: &[[Recorded; 3]], out: &mut [Recorded]) {
-        out.fill(f64::NAN.into());
-    }
-
-    fn dq_dv(&self, _: Poses<'_, S>, _: Twists<'_, S>, _: &[[Recorded; 3]], out: &mut [Recorded]) {
-        out.fill(f64::NAN.into());
-    }
-}
-
 /// A downstream crate might make kernels of its own space, so this cannot be said of all spaces.
 macro_rules! force_kernels {
     ($space:ident) => {
         impl ForceKernels<$space> for CalledWrench {
-            fn recorded(&self) -> &dyn ForceElement<Recorded, $space> {
-                self
+            /// A function that is called cannot be recorded: generators of code refuse it.
+            fn recorded_q(
+                &self,
+                _: &[<$space as Space>::Pose<Recorded>],
+                _: &[<$space as Space>::Twist<Recorded>],
+                _: &[[Recorded; 3]],
+                out: &mut [Recorded],
+            ) {
+                out.fill(f64::NAN.into());
             }
 
             fn boxed(&self) -> Box<dyn ForceKernels<$space>> {

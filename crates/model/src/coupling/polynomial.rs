@@ -1,6 +1,6 @@
 //! The polynomial by which one measure follows another.
 
-use joints::Ring;
+use joints::Scalar;
 
 /// h(x) = c₁·x + c₂·x² + …, without a constant.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,16 +33,18 @@ impl Polynomial {
         &mut self.coefficients
     }
 
-    /// h and its first three derivatives at x, by Horner's scheme.
-    pub(super) fn at<T: Ring>(&self, x: T) -> [T; 4] {
+    /// h and its first three derivatives at x, by Horner's scheme; what reads the coefficients as
+    /// stored numbers finds them from this place on.
+    pub(super) fn at<T: Scalar>(&self, x: T, first: usize) -> [T; 4] {
         let zero = T::from(0.0);
         let mut h = [zero; 4];
         let factors = [0.0, 1.0, 2.0, 3.0].map(T::from);
-        for &c in self.coefficients.iter().rev() {
+        for (k, &c) in self.coefficients.iter().enumerate().rev() {
+            let c = T::stored(c, first + k);
             for k in (1..4).rev() {
                 h[k] = h[k] * x + factors[k] * h[k - 1];
             }
-            h[0] = h[0] * x + T::from(c);
+            h[0] = h[0] * x + c;
         }
         // The loop has left the quotient h(x)/x with its derivatives.
         for k in (1..4).rev() {

@@ -1,62 +1,15 @@
 //! One measure of a coupling: the kernels of its drive, and where they are in those of the
 //! coupling.
 
-use joints::{Element, Magnitude, Positions, Recorded, Ring};
-use linalg::Dd;
+use joints::Ring;
 
 use super::facts::Facts;
-use crate::element::{BodySpace, ConstraintKernels, Kinematics, PoseOf, TwistOf};
+use crate::element::{
+    BodySpace, ConstraintKernels, Evaluated, Kinematics, PoseOf, RowsAt, TwistOf, stored,
+};
 
 /// Velocities of two bodies.
 pub(super) const MOST: usize = 12;
-
-/// A number type in which constraints have rows at poses.
-pub(super) trait Numbers: Ring {
-    /// The rows of a constraint in it.
-    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Positions<Self, S>;
-}
-
-/// A number type in which constraints have all kernels of their equations.
-pub(super) trait KernelNumbers: Numbers {
-    /// The kernels of a constraint in it.
-    fn all_of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Element<Self, S>;
-}
-
-impl Numbers for f64 {
-    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Positions<Self, S> {
-        kernels
-    }
-}
-
-impl KernelNumbers for f64 {
-    fn all_of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Element<Self, S> {
-        kernels
-    }
-}
-
-impl Numbers for Dd {
-    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Positions<Self, S> {
-        kernels.extended()
-    }
-}
-
-impl Numbers for Magnitude {
-    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Positions<Self, S> {
-        kernels.magnitude()
-    }
-}
-
-impl Numbers for Recorded {
-    fn of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Positions<Self, S> {
-        kernels.recorded()
-    }
-}
-
-impl KernelNumbers for Recorded {
-    fn all_of<S: BodySpace>(kernels: &dyn ConstraintKernels<S>) -> &dyn Element<Self, S> {
-        kernels.recorded()
-    }
-}
 
 /// One measure.
 pub(super) struct Side<S: BodySpace> {
@@ -69,8 +22,8 @@ pub(super) struct Side<S: BodySpace> {
     turn: Option<usize>,
     /// For each entry of its row, the entry of the coupling's.
     pub(super) entries: Vec<usize>,
-    /// Entries of its row that depend on parameters only, zero elsewhere.
-    constant: [f64; MOST],
+    /// Places of the numbers that its programs take, among those of the coupling.
+    pub(super) stored: std::ops::Range<usize>,
 }
 
 impl<S: BodySpace> Clone for Side<S> {
@@ -81,7 +34,7 @@ impl<S: BodySpace> Clone for Side<S> {
             data: self.data.clone(),
             turn: self.turn,
             entries: self.entries.clone(),
-            constant: self.constant,
+            stored: self.stored.clone(),
         }
     }
 }
@@ -90,6 +43,8 @@ impl<S: BodySpace> Clone for Side<S> {
 pub(super) struct At<T> {
     /// The measure since the start.
     pub(super) measure: T,
+    /// The row of its drive: the measure, or what is left of it beside what is known.
+    left: T,
     /// Its gradient: the entries of the row of its drive.
     pub(super) gradient: [T; MOST],
     /// What its drive is given in place of a motion.
@@ -101,34 +56,21 @@ impl<S: Kinematics> Side<S> {
     pub(super) fn new(
         drive: Box<dyn ConstraintKernels<S>>,
         slots: [usize; 2],
-        first_datum: usize,
+        [first_datum, first_stored]: [usize; 2],
         turn: usize,
         facts: &Facts,
     ) -> Self {
         let spec = drive.spec();
         let entry = |e: &joints::spec::Entry| facts.entry(slots[e.slot], e.dof);
-        let mut side = Self {
+        let of_programs: Vec<f64> = stored(drive.as_ref());
+        Self {
             slots,
             data: first_datum..first_datum + spec.n_data(),
             turn: spec.turning.then_some(3 * turn),
             entries: spec.c.iter().map(entry).collect(),
-            constant: [0.0; MOST],
+            stored: first_stored..first_stored + of_programs.len(),
             drive,
-        };
-        side.take_constants();
-        side
-    }
-
-    /// Whether its measure is an angle that is given with its turns.
-    pub(super) fn counts_turns(&self) -> bool {
-        self.turn.is_some()
-    }
-
-    /// Takes the constant entries from the parameters.
-    pub(super) fn take_constants(&mut self) {
-        self.constant = [0.0; MOST];
-        let n = self.drive.spec().c.len();
-        self.drive.c_constant(&mut self.constant[..n]);
+        }
     }
 
     /// Its two among the values of all slots.
@@ -137,7 +79,7 @@ impl<S: Kinematics> Side<S> {
     }
 
     /// The measure and its gradient at poses of its bodies.
-    pub(super) fn at<T: Numbers>(&self, x: &[PoseOf<S, T>; 2], f: &[[T; 3]]) -> At<T> {
+    pub(super) fn at<T: Evaluated>(&self, x: &[PoseOf<S, T>; 2], f: &[[T; 3]]) -> At<T> {
         let zero = T::from(0.0);
         let mut known = zero;
         let mut own = [[zero; 3]; 2];
@@ -145,16 +87,34 @@ impl<S: Kinematics> Side<S> {
             known = angle[0];
             own = [[cos[0], zero, zero], [sin[0], zero, zero]];
         }
-        let kernels = T::of(self.drive.as_ref());
-        let mut left = [zero];
-        kernels.phi(x, &own, &mut left);
-        let mut gradient = self.constant.map(T::from);
-        kernels.c(x, &own, &mut gradient[..self.entries.len()]);
-        At {
-            measure: known + left[0],
-            gradient,
-            f: own,
-        }
+        self.with_rows((x, &own), |rows| {
+            let mut left = [zero];
+            T::phi(rows, &mut left);
+            let mut gradient = [zero; MOST];
+            T::c(rows, &mut gradient[..self.entries.len()]);
+            At {
+                measure: known + left[0],
+                left: left[0],
+                gradient,
+                f: own,
+            }
+        })
+    }
+
+    fn with_rows<T: Evaluated, R>(
+        &self,
+        (x, f): (&[PoseOf<S, T>; 2], &[[T; 3]; 2]),
+        ask: impl FnOnce(&RowsAt<'_, S, T>) -> R,
+    ) -> R {
+        let kernels = self.drive.as_ref();
+        let first = self.stored.start;
+        let stored = T::stored_by(kernels, |value, place| T::stored(value, first + place));
+        ask(&RowsAt {
+            kernels,
+            stored: &stored,
+            x,
+            f,
+        })
     }
 
     /// The gradient times velocities or accelerations of its bodies.
@@ -167,15 +127,22 @@ impl<S: Kinematics> Side<S> {
         })
     }
 
-    /// Γ of the row of its drive.
-    pub(super) fn gamma<T: KernelNumbers>(
+    /// Γ of the measure. A row of an angle that counts its turns is sin ε, ε what is left of the
+    /// angle beside what is known of it; its Γ has ε·rate², which that of the angle has not.
+    pub(super) fn gamma<T: Evaluated>(
         &self,
+        at: &At<T>,
         x: &[PoseOf<S, T>; 2],
         v: &[TwistOf<S, T>; 2],
-        f: &[[T; 3]; 2],
     ) -> T {
         let mut gamma = [T::from(0.0)];
-        T::all_of(self.drive.as_ref()).gamma(x, v, f, &mut gamma);
-        gamma[0]
+        self.with_rows((x, &at.f), |rows| T::gamma(rows, v, &mut gamma));
+        match self.turn {
+            Some(_) => {
+                let rate = self.times(&at.gradient, v);
+                gamma[0] - at.left * rate * rate
+            }
+            None => gamma[0],
+        }
     }
 }

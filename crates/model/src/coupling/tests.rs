@@ -5,7 +5,7 @@ use joints::space3::{
     Axes, CylindricalAngleDrive, CylindricalDisplacementDrive, DistanceLengthDrive, Pose,
     RevoluteAngleDrive, Twist,
 };
-use joints::{Constraint, Space3};
+use joints::{Constraint, ConstraintKernels, Sloped, Space3};
 
 use super::*;
 use crate::BodyRef::{Body, Ground};
@@ -333,7 +333,7 @@ fn derivatives_by_data_agree_with_differences() {
     for (number, case) in cases().iter().enumerate() {
         let (state, kernels, spec) = (&case.state, &case.kernels, case.kernels.spec());
         let x = state.poses(&state.still());
-        let (v, a) = (twists(&state.v), twists(&state.a));
+        let v = twists(&state.v);
         let mut numbers = vec![0.0; spec.n_data()];
         kernels.data(&mut numbers);
         let slopes = |f: &dyn Fn(&Case) -> f64| -> Vec<f64> {
@@ -357,10 +357,11 @@ fn derivatives_by_data_agree_with_differences() {
             (0..numbers.len()).map(along).collect()
         };
         let mut found = vec![0.0; numbers.len()];
-        kernels.d_phi_dp(&x, &given(kernels, &x), &[1.3], &mut found);
+        let by_data = kernels.slopes(&x, &given(kernels, &x), Sloped::All(&v));
+        by_data.phi(&[1.3], &mut found);
         let expected = slopes(&|case| 1.3 * case.phi(&x));
         close(&found, &expected, &format!("coupling {number}: ∂(λᵀΦ)/∂p"));
-        kernels.d_residual_dp(&x, &v, &a, &given(kernels, &x), &[1.3], &mut found);
+        by_data.residual(&[1.3], &state.a, &mut found);
         let expected = slopes(&|case| 1.3 * case.residual(&x));
         close(
             &found,

@@ -8,7 +8,6 @@
 use std::ops::Range;
 
 use super::Data;
-use crate::element::OwnRates;
 use crate::rows::RowRanges;
 use crate::system::Scratch;
 
@@ -49,36 +48,35 @@ impl Data<'_> {
                 values.resize(place + numbers.len(), 0.0);
                 fill(&mut values[place..]);
             };
-            let slots = &s.slots;
-            let (mut storage, mut rates, mut bodies) =
-                (Vec::new(), OwnRates::default(), Vec::new());
+            let (mut storage, mut bodies) = (Vec::new(), Vec::new());
             let own = c.rows.of(lambda, &mut storage);
+            let slopes = c.slopes(&s.slots);
+            let [mut unit, mut own_a, mut own_v] = [const { Vec::new() }; 3];
+            unit.resize(space.n_v() * c.site.bodies.len(), 0.0);
             for (k, body) in c.site.bodies.iter().enumerate() {
                 let Some(body) = body.moving() else {
                     continue;
                 };
                 bodies.push(space.columns_of(body));
                 for dof in 0..space.n_v() {
-                    rates.unit(&c.site, k, dof);
-                    column(&mut |out| c.d_power_dp(slots, &mut rates, own, out));
+                    let at = space.n_v() * k + dof;
+                    unit[at] = 1.0;
+                    column(&mut |out| slopes.power(own, &unit, out));
+                    unit[at] = 0.0;
                 }
             }
-            let of = |x: &[f64]| {
-                let mut rates = OwnRates::default();
-                rates.take(&c.site, x);
-                rates
-            };
-            let (a, mut v) = (of(a), of(v));
+            c.site.own_rates(a, &mut own_a);
+            c.site.own_rates(v, &mut own_v);
             let holonomic = c.rows.holonomic.len();
             let mut unit = vec![0.0; c.rows.len()];
             for i in 0..unit.len() {
                 unit[i] = 1.0;
-                column(&mut |out| c.d_residual_dp(slots, &a, &unit, out));
+                column(&mut |out| slopes.residual(&unit, &own_a, out));
                 if moves {
-                    column(&mut |out| c.d_power_dp(slots, &mut v, &unit, out));
+                    column(&mut |out| slopes.power(&unit, &own_v, out));
                 }
                 if i < holonomic {
-                    column(&mut |out| c.d_phi_dp(slots, &unit[..holonomic], out));
+                    column(&mut |out| slopes.phi(&unit[..holonomic], out));
                 }
                 unit[i] = 0.0;
             }

@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use joints::space3::{Pose, Twist};
 use joints::spec::ConstraintSpec;
-use joints::{Magnitude, Space3};
+use joints::{Magnitude, Sloped, Slopes, Space3};
 
-use super::slots::{Kinematics, OwnRates, Rates, Site, Slots};
-use super::{AnyConstraint, Bodies, BodySpace, with};
+use super::slots::{Kinematics, Rates, Site, Slots};
+use super::{AnyConstraint, Bodies, BodySpace, stored, with};
 use crate::rows::RowRanges;
 
 /// A constraint in the axes in which its bodies move.
@@ -221,31 +221,26 @@ impl PlacedConstraint {
         });
     }
 
-    /// Gradient of `λᵀ·Φ` with respect to its numbers, for λ of its holonomic rows.
-    pub(crate) fn d_phi_dp(&self, s: &Slots, lambda: &[f64], out: &mut [f64]) {
+    /// The derivatives of Φ with respect to its numbers.
+    pub(crate) fn slopes_of_phi(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
-            element.d_phi_dp(self.site.x::<S>(s), self.site.f(s), lambda, out);
-        });
+            element.slopes(self.site.x::<S>(s), self.site.f(s), Sloped::Phi)
+        })
     }
 
-    /// Gradient of `λᵀ·(C·a − Γ)` with respect to its numbers.
-    pub(crate) fn d_residual_dp(&self, s: &Slots, a: &OwnRates, lambda: &[f64], out: &mut [f64]) {
+    /// The derivatives of C.
+    pub(crate) fn slopes_of_c(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
-            let (x, v, f) = (self.site.x::<S>(s), self.site.v::<S>(&s.rates), self.site.f(s));
-            element.d_residual_dp(x, v, S::twists(&a.own.twists), f, lambda, out);
-        });
+            element.slopes(self.site.x::<S>(s), self.site.f(s), Sloped::C)
+        })
     }
 
-    /// Gradient of `λᵀ·C·v` with respect to its numbers: without velocities and rates of functions
-    /// of time Γ vanishes.
-    pub(crate) fn d_power_dp(&self, s: &Slots, v: &mut OwnRates, lambda: &[f64], out: &mut [f64]) {
-        v.still_f.clear();
-        let still = self.site.f(s).iter().map(|[f, ..]| [*f, 0.0, 0.0]);
-        v.still_f.extend(still);
+    /// The derivatives of Φ, C, and of Γ at the velocities of the slots.
+    pub(crate) fn slopes(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
-            let (own, still) = (S::twists(&v.own.twists), S::twists(&v.still.twists));
-            element.d_residual_dp(self.site.x::<S>(s), still, own, &v.still_f, lambda, out);
-        });
+            let v = self.site.v::<S>(&s.rates);
+            element.slopes(self.site.x::<S>(s), self.site.f(s), Sloped::All(v))
+        })
     }
 
     /// Sizes of the terms of C.
@@ -254,7 +249,7 @@ impl PlacedConstraint {
         let f: Vec<[Magnitude; 3]> = jets.map(|jet| jet.map(Magnitude::from)).collect();
         with!(AnyConstraint, &self.framed.element, element, S => {
             let x: Vec<_> = self.site.x::<S>(s).iter().map(S::magnitude).collect();
-            element.magnitude().c(&x, &f, out);
+            element.programs().of(&stored(element.as_ref())).c::<S>(&x, &f, out);
         });
     }
 }

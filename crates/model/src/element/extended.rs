@@ -4,7 +4,7 @@ use linalg::Dd;
 
 use super::bodies::Bodies;
 use super::constraint::PlacedConstraint;
-use super::kernels::{AnyConstraint, with};
+use super::kernels::{AnyConstraint, stored, with};
 
 /// Poses of all bodies, and what kernels are given besides them, in double-double.
 pub(crate) struct ExtendedSlots {
@@ -17,7 +17,9 @@ impl ExtendedSlots {
     pub(crate) fn phi(&self, constraint: &PlacedConstraint, out: &mut [Dd]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let x = constraint.site.poses::<S, Dd>(&self.bodies);
-            element.extended().phi(&x, &self.jets[constraint.site.functions.clone()], out);
+            let stored = stored(element.as_ref());
+            let f = &self.jets[constraint.site.functions.clone()];
+            element.programs().of(&stored).phi::<S>(&x, f, out);
         });
     }
 
@@ -25,7 +27,9 @@ impl ExtendedSlots {
     pub(crate) fn c(&self, constraint: &PlacedConstraint, out: &mut [Dd]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let x = constraint.site.poses::<S, Dd>(&self.bodies);
-            element.extended().c(&x, &self.jets[constraint.site.functions.clone()], out);
+            let stored = stored(element.as_ref());
+            let f = &self.jets[constraint.site.functions.clone()];
+            element.programs().of(&stored).c::<S>(&x, f, out);
         });
     }
 }

@@ -205,7 +205,7 @@ impl PlacedForce {
         }
         with!(AnyForce, &self.element, element, S => {
             let (x, v, f) = at.of::<S>(&self.site);
-            element.recorded().q(&x, &v, f, out);
+            element.recorded_q(&x, &v, f, out);
         });
     }
 }

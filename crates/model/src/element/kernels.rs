@@ -2,10 +2,9 @@
 
 use joints::spec::{ConstraintSpec, ForceSpec};
 use joints::{
-    Constraint, Derivatives, Element, Force, ForceElement, Magnitude, Plane, Positions, Recorded,
+    Constraint, ConstraintKernels, Force, ForceElement, Plane, Recorded, Ring, Rows, Scalar, Space,
     Space3,
 };
-use linalg::Dd;
 
 use crate::body::{BodyRef, DescribedBody};
 use crate::called::CalledWrench;
@@ -103,43 +102,115 @@ pub type Measured<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
 /// A constraint with its bodies.
 pub type Placed<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
 
-/// The kernels of a constraint as a trait object: in `f64` for motion, and in other number types.
-pub trait ConstraintKernels<S: BodySpace = Plane>: Derivatives<f64, S> {
-    /// Kernels for certificates.
-    fn extended(&self) -> &dyn Positions<Dd, S>;
-    /// Kernels for bounds on the rounding of data.
-    fn magnitude(&self) -> &dyn Positions<Magnitude, S>;
-    /// Kernels that record their operations.
-    fn recorded(&self) -> &dyn Element<Recorded, S>;
-    /// A copy.
-    fn boxed(&self) -> Box<dyn ConstraintKernels<S>>;
+/// Where the rows of a constraint are evaluated.
+pub(crate) struct RowsAt<'a, S: Space, T: Ring> {
+    pub(crate) kernels: &'a dyn ConstraintKernels<S>,
+    /// The numbers that its programs take of it.
+    pub(crate) stored: &'a [T],
+    pub(crate) x: &'a [S::Pose<T>],
+    pub(crate) f: &'a [[T; 3]],
 }
 
-impl<K: Constraint<S>, S: BodySpace> ConstraintKernels<S> for K {
-    fn extended(&self) -> &dyn Positions<Dd, S> {
-        self.positions()
-    }
-    fn magnitude(&self) -> &dyn Positions<Magnitude, S> {
-        self.positions()
-    }
-    fn recorded(&self) -> &dyn Element<Recorded, S> {
-        self.element()
-    }
-    fn boxed(&self) -> Box<dyn ConstraintKernels<S>> {
-        Box::new(self.clone())
+impl<'a, S: Space, T: Ring> RowsAt<'a, S, T> {
+    fn rows(&self) -> Rows<'a, T> {
+        self.kernels.programs().of(self.stored)
     }
 }
 
-impl<S: BodySpace> Clone for Box<dyn ConstraintKernels<S>> {
-    fn clone(&self) -> Self {
-        self.as_ref().boxed()
+/// A number type in which a law and a coupling have the rows of a drive: `f64` by its kernels,
+/// numbers that record by its programs.
+pub(crate) trait Evaluated: Scalar {
+    /// The numbers that the programs take, each made of its value and its place; none for kernels,
+    /// which read their own.
+    fn stored_by<S: Space>(
+        kernels: &dyn ConstraintKernels<S>,
+        number: impl Fn(f64, usize) -> Self,
+    ) -> Vec<Self>;
+
+    fn phi<S: Space>(at: &RowsAt<'_, S, Self>, out: &mut [Self]);
+
+    /// All entries of C.
+    fn c<S: Space>(at: &RowsAt<'_, S, Self>, out: &mut [Self]);
+
+    fn gamma<S: Space>(at: &RowsAt<'_, S, Self>, v: &[S::Twist<Self>], out: &mut [Self]);
+
+    fn component<S: Space>(at: &RowsAt<'_, S, Self>, out: &mut [Self]);
+}
+
+impl Evaluated for f64 {
+    fn stored_by<S: Space>(
+        _: &dyn ConstraintKernels<S>,
+        _: impl Fn(f64, usize) -> Self,
+    ) -> Vec<Self> {
+        Vec::new()
     }
+
+    fn phi<S: Space>(at: &RowsAt<'_, S, Self>, out: &mut [Self]) {
+        at.kernels.phi(at.x, at.f, out);
+    }
+
+    fn c<S: Space>(at: &RowsAt<'_, S, Self>, out: &mut [Self]) {
+        at.kernels.c_constant(out);
+        at.kernels.c(at.x, at.f, out);
+    }
+
+    fn gamma<S: Space>(at: &RowsAt<'_, S, Self>, v: &[S::Twist<Self>], out: &mut [Self]) {
+        at.kernels.gamma(at.x, v, at.f, out);
+    }
+
+    fn component<S: Space>(at: &RowsAt<'_, S, Self>, out: &mut [Self]) {
+        at.kernels.component(at.x, at.f, out);
+    }
+}
+
+impl Evaluated for Recorded {
+    fn stored_by<S: Space>(
+        kernels: &dyn ConstraintKernels<S>,
+        number: impl Fn(f64, usize) -> Self,
+    ) -> Vec<Self> {
+        let places = 0..;
+        let values = stored(kernels).into_iter();
+        values
+            .zip(places)
+            .map(|(value, place)| number(value, place))
+            .collect()
+    }
+
+    fn phi<S: Space>(at: &RowsAt<'_, S, Self>, out: &mut [Self]) {
+        at.rows().phi::<S>(at.x, at.f, out);
+    }
+
+    fn c<S: Space>(at: &RowsAt<'_, S, Self>, out: &mut [Self]) {
+        at.rows().c_constant::<S>(at.x, at.f, out);
+        at.rows().c::<S>(at.x, at.f, out);
+    }
+
+    fn gamma<S: Space>(at: &RowsAt<'_, S, Self>, v: &[S::Twist<Self>], out: &mut [Self]) {
+        at.rows().gamma::<S>(at.x, v, at.f, out);
+    }
+
+    fn component<S: Space>(at: &RowsAt<'_, S, Self>, out: &mut [Self]) {
+        at.rows().component::<S>(at.x, at.f, out);
+    }
+}
+
+/// The numbers that the programs of a constraint take of it, in any number type.
+pub(crate) fn stored<S: Space, T: From<f64>>(kernels: &dyn ConstraintKernels<S>) -> Vec<T> {
+    let mut numbers = Vec::new();
+    kernels.stored(&mut numbers);
+    numbers.into_iter().map(T::from).collect()
 }
 
 /// The kernels of a force as a trait object.
 pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
-    /// Kernels that record their operations.
-    fn recorded(&self) -> &dyn ForceElement<Recorded, S>;
+    /// Entries of Q by numbers that record their operations.
+    fn recorded_q(
+        &self,
+        x: &[S::Pose<Recorded>],
+        v: &[S::Twist<Recorded>],
+        f: &[[Recorded; 3]],
+        out: &mut [Recorded],
+    );
     /// A copy.
     fn boxed(&self) -> Box<dyn ForceKernels<S>>;
     /// Whether this is a drive by a law.
@@ -176,8 +247,14 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
 }
 
 impl<K: Force<S>, S: BodySpace> ForceKernels<S> for K {
-    fn recorded(&self) -> &dyn ForceElement<Recorded, S> {
-        self.element()
+    fn recorded_q(
+        &self,
+        x: &[S::Pose<Recorded>],
+        v: &[S::Twist<Recorded>],
+        f: &[[Recorded; 3]],
+        out: &mut [Recorded],
+    ) {
+        self.element::<Recorded>().q(x, v, f, out);
     }
     fn boxed(&self) -> Box<dyn ForceKernels<S>> {
         Box::new(self.clone())

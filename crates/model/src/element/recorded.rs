@@ -1,11 +1,11 @@
 //! Arguments of kernels as inputs of a recording.
 
 use joints::plane::Pose;
-use joints::{Plane, Recorded, Space3, space3};
+use joints::{Plane, Recorded, Space as _, Space3, space3};
 
 use super::bodies::{InEach, Poses, Twists};
 use super::constraint::PlacedConstraint;
-use super::kernels::{AnyConstraint, with};
+use super::kernels::{AnyConstraint, stored, with};
 use super::slots::{Kinematics, Site, pose_of};
 use crate::body::BodyRef;
 use crate::space::SpaceKind;
@@ -130,7 +130,7 @@ impl RecordedSlots {
     pub(crate) fn phi(&self, constraint: &PlacedConstraint, out: &mut [Recorded]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let (x, _, f) = self.of::<S>(&constraint.site);
-            element.recorded().phi(&x, f, out);
+            element.programs().of(&stored(element.as_ref())).phi::<S>(&x, f, out);
         });
     }
 
@@ -138,7 +138,7 @@ impl RecordedSlots {
     pub(crate) fn c(&self, constraint: &PlacedConstraint, out: &mut [Recorded]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let (x, _, f) = self.of::<S>(&constraint.site);
-            element.recorded().c(&x, f, out);
+            element.programs().of(&stored(element.as_ref())).c::<S>(&x, f, out);
         });
     }
 
@@ -146,7 +146,7 @@ impl RecordedSlots {
     pub(crate) fn b(&self, constraint: &PlacedConstraint, out: &mut [Recorded]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let (x, _, f) = self.of::<S>(&constraint.site);
-            element.recorded().b(&x, f, out);
+            element.programs().of(&stored(element.as_ref())).b::<S>(&x, f, out);
         });
     }
 
@@ -154,7 +154,7 @@ impl RecordedSlots {
     pub(crate) fn gamma(&self, constraint: &PlacedConstraint, out: &mut [Recorded]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let (x, v, f) = self.of::<S>(&constraint.site);
-            element.recorded().gamma(&x, &v, f, out);
+            element.programs().of(&stored(element.as_ref())).gamma::<S>(&x, &v, f, out);
         });
     }
 

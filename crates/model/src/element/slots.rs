@@ -23,8 +23,6 @@ pub(crate) trait Kinematics: BodySpace {
     fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [Self::Twist<T>];
     /// The velocities of a twist.
     fn velocities<T: Ring>(twist: &Self::Twist<T>) -> impl Iterator<Item = T>;
-    /// The twist with these velocities.
-    fn twist<T: Ring>(v: &[T]) -> Self::Twist<T>;
     /// Sizes of the contributions of a pose to a polynomial.
     fn magnitude(pose: &Self::Pose<f64>) -> Self::Pose<Magnitude>;
     fn first_origin(poses: &[Self::Pose<f64>]) -> [f64; 3];
@@ -45,13 +43,6 @@ impl Kinematics for Plane {
     }
     fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [Twist<T>] {
         &mut all.plane
-    }
-    fn twist<T: Ring>(v: &[T]) -> Twist<T> {
-        Twist {
-            x: v[0],
-            y: v[1],
-            omega: v[2],
-        }
     }
     fn velocities<T: Ring>(twist: &Twist<T>) -> impl Iterator<Item = T> {
         [twist.x, twist.y, twist.omega].into_iter()
@@ -87,12 +78,6 @@ impl Kinematics for Space3 {
     }
     fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [space3::Twist<T>] {
         &mut all.space3
-    }
-    fn twist<T: Ring>(v: &[T]) -> space3::Twist<T> {
-        space3::Twist {
-            v: [v[0], v[1], v[2]],
-            omega: [v[3], v[4], v[5]],
-        }
     }
     fn velocities<T: Ring>(twist: &space3::Twist<T>) -> impl Iterator<Item = T> {
         twist.v.into_iter().chain(twist.omega)
@@ -196,18 +181,6 @@ impl Rates {
         Self { space, twists }
     }
 
-    /// Sets so many slots at rest, in the same storage.
-    fn rest(&mut self, space: SpaceKind, slots: usize) {
-        self.space = space;
-        let InEach { plane, space3 } = &mut self.twists;
-        plane.clear();
-        space3.clear();
-        match space {
-            SpaceKind::Space3 => space3.resize(slots, space3::Twist::zero()),
-            _ => plane.resize(slots, Twist::zero()),
-        }
-    }
-
     /// Takes velocities or accelerations of the bodies (n_v); those of the ground stay zero.
     #[inline]
     pub(crate) fn take<'a>(&mut self, sites: impl Iterator<Item = &'a Site>, v: &[f64]) {
@@ -221,44 +194,6 @@ impl Rates {
                     }
                 }
             }
-        });
-    }
-}
-
-/// Velocities of the slots of one constraint for derivatives of its power.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct OwnRates {
-    pub(super) own: Rates,
-    pub(super) still: Rates,
-    /// Functions of time as they are, at rest.
-    pub(super) still_f: Vec<[f64; 3]>,
-}
-
-impl OwnRates {
-    /// Takes the constraint, with all its bodies at rest.
-    fn still(&mut self, site: &Site) {
-        let (space, slots) = (site.space, site.bodies.len());
-        self.own.rest(space, slots);
-        self.still.rest(space, slots);
-    }
-
-    /// Takes velocities or accelerations of all bodies (n_v).
-    pub(crate) fn take(&mut self, site: &Site, v: &[f64]) {
-        self.still(site);
-        in_kernels!(site.space, S => {
-            let twists = S::twists_mut(&mut self.own.twists).iter_mut();
-            let bodies = twists.zip(&site.bodies);
-            bodies.for_each(|(twist, &body)| *twist = twist_of::<S>(body, v));
-        });
-    }
-
-    /// The body of one slot moves at 1 m/s or 1 rad/s along one of its freedoms, alone.
-    pub(crate) fn unit(&mut self, site: &Site, slot: usize, dof: usize) {
-        self.still(site);
-        let mut unit = [0.0; 6];
-        unit[dof] = 1.0;
-        in_kernels!(site.space, S => {
-            S::twists_mut(&mut self.own.twists)[slot] = S::twist(&unit);
         });
     }
 }
@@ -324,6 +259,17 @@ impl Site {
     /// Its bodies except the ground.
     pub(crate) fn moving(&self) -> impl Iterator<Item = usize> + '_ {
         self.bodies.iter().filter_map(|b| b.moving())
+    }
+
+    /// Velocities or accelerations of its slots, of those of all bodies (n_v); zero for the ground.
+    pub(crate) fn own_rates(&self, all: &[f64], out: &mut Vec<f64>) {
+        out.clear();
+        for body in &self.bodies {
+            match body.moving() {
+                Some(body) => out.extend_from_slice(&all[self.space.columns_of(body)]),
+                None => out.resize(out.len() + self.space.n_v(), 0.0),
+            }
+        }
     }
 
     /// Column of C for a column of its block; `None` for the ground.

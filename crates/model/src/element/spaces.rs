@@ -1,10 +1,8 @@
 //! The plane and space as spaces of kernels: of joints, laws, called wrenches and couplings.
 
-use joints::{Constraint, Plane, Space3};
+use joints::{Constraint, ConstraintKernels, Plane, Space3};
 
-use super::kernels::{
-    AnyConstraint, AnyForce, BodySpace, ConstraintKernels, ForceKernels, Measured, Placed,
-};
+use super::kernels::{AnyConstraint, AnyForce, BodySpace, ForceKernels, Measured, Placed};
 use crate::body::{Body, SpatialBody};
 use crate::called::CalledWrench;
 use crate::coupling::{CouplingError, couple};

@@ -130,7 +130,7 @@ impl TurnedSlots {
         let mut values = vec![Recorded::from(0.0); pattern.len()];
         self.poses(&mut x);
         self.twists(&mut v);
-        kernels.recorded().q(&x, &v, f, &mut values);
+        kernels.recorded_q(&x, &v, f, &mut values);
         self.write(pattern, &values, out);
     }
 

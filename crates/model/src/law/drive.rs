@@ -8,24 +8,23 @@
 //! is C/s. For a distance, s = |d|/L.
 
 use joints::spec::{ConstraintSpec, ForceSpec};
-use joints::{Constraint, Definition, Derivatives, Element, ForceElement, Plane, Recorded, Space3};
+use joints::{Constraint, ConstraintKernels, Definition, ForceElement, Plane, Recorded, Space3};
 
 use super::number::Smooth;
 use super::{DriveForce, Law, LawError};
-use crate::element::{ForceKernels, Kinematics, PoseOf, TwistOf};
+use crate::element::{BodySpace, Evaluated, ForceKernels, Kinematics, PoseOf, RowsAt, TwistOf};
 
 /// Largest number of bodies of a joint with a law; no joint of the library has more than three.
 const MOST_BODIES: usize = 4;
 /// Largest number of velocities of these bodies: six in space.
 const MOST: usize = MOST_BODIES * 6;
 
-/// The law of one measure of the joint of `K`.
+/// The law of one measure of a joint.
 #[derive(Clone)]
-pub(crate) struct LawDrive<K> {
-    drive: K,
+pub(crate) struct LawDrive<S: BodySpace> {
+    drive: Box<dyn ConstraintKernels<S>>,
+    facts: &'static ForceSpec,
     law: Law,
-    /// Entries of C that depend on parameters only.
-    constant: [f64; MOST],
     measured: Measured,
 }
 
@@ -46,7 +45,7 @@ pub(crate) fn law_drive<K: Constraint<S>, S: Kinematics>(
     law: Law,
 ) -> Result<Box<dyn ForceKernels<S>>, LawError>
 where
-    LawDrive<K>: ForceKernels<S>,
+    LawDrive<S>: ForceKernels<S>,
 {
     let spec = &K::SPEC;
     let (rows, slots) = (spec.rows.len(), spec.common.slots.len());
@@ -64,9 +63,9 @@ where
         Measured::ByRow
     };
     Ok(Box::new(LawDrive {
-        drive,
+        drive: drive.boxed(),
+        facts: &Facts::<K, S>::SPEC,
         law,
-        constant: [0.0; MOST],
         measured,
     }))
 }
@@ -74,7 +73,7 @@ where
 /// Name of the datum with the initial value of a measure that has a row of its own.
 const OF_ROW: &str = "measure_0";
 
-impl<K: Constraint<S>, S: Kinematics> Definition<S> for LawDrive<K> {
+impl<S: Kinematics> Definition<S> for LawDrive<S> {
     fn initialise(&mut self, x: &[PoseOf<S>]) {
         if let Measured::Turn(start) = self.measured {
             // Since the start that was known before, which was none at first.
@@ -85,10 +84,11 @@ impl<K: Constraint<S>, S: Kinematics> Definition<S> for LawDrive<K> {
             self.measured = Measured::Turn(if self.law.since_start { 0.0 } else { angle });
         } else {
             self.drive.initialise(x);
-            let mut numbers = vec![0.0; K::SPEC.n_data()];
+            let spec = self.drive.spec();
+            let mut numbers = vec![0.0; spec.n_data()];
             self.drive.data(&mut numbers);
-            let mut data = K::SPEC.data.iter().rev();
-            let measure = K::SPEC.common.scene_type;
+            let mut data = spec.data.iter().rev();
+            let measure = spec.common.scene_type;
             self.measured = match data.find(|d| d.name == OF_ROW || d.name == measure) {
                 Some(datum) if datum.name == OF_ROW && self.law.since_start => Measured::ByRow,
                 Some(datum) if datum.name == OF_ROW => {
@@ -101,8 +101,6 @@ impl<K: Constraint<S>, S: Kinematics> Definition<S> for LawDrive<K> {
                 found => Measured::Kept(found.map_or(0.0, |datum| numbers[datum.first])),
             };
         }
-        let element: &dyn Element<f64, S> = self.drive.element();
-        element.c_constant(&mut self.constant[..K::SPEC.c.len()]);
     }
 
     fn requirement(&self, k: usize, x: &[PoseOf<S>]) -> bool {
@@ -139,13 +137,17 @@ impl<T: Smooth> Along<T> {
     }
 }
 
-impl<K> LawDrive<K> {
+impl<S: Kinematics> LawDrive<S> {
     /// The measure at these poses. `f` is the time, and for an angle in space what is given of it.
-    fn along<T: Smooth, S: Kinematics>(&self, x: &[PoseOf<S, T>], f: &[[T; 3]]) -> Along<T>
-    where
-        K: Constraint<S>,
-    {
-        let element: &dyn Element<T, S> = self.drive.element();
+    fn along<T: Smooth + Evaluated>(&self, x: &[PoseOf<S, T>], f: &[[T; 3]]) -> Along<T> {
+        let kernels = self.drive.as_ref();
+        let stored = T::stored_by(kernels, |value, _| T::from(value));
+        let at = |f| RowsAt {
+            kernels,
+            stored: &stored,
+            x,
+            f,
+        };
         let [zero, one, two] = [0.0, 1.0, 2.0].map(T::from);
         let mut along = Along {
             measure: zero,
@@ -157,24 +159,27 @@ impl<K> LawDrive<K> {
             along.measure = T::from(start) + angle[0];
             along.motion = [[cos[0], zero, zero], [sin[0], zero, zero]];
         }
-        let mut entries = self.constant.map(T::from);
-        element.c(x, &along.motion, &mut entries[..K::SPEC.c.len()]);
+        let motion = along.motion;
+        let here = at(&motion);
+        let spec = kernels.spec();
+        let mut entries = [zero; MOST];
+        T::c(&here, &mut entries[..spec.c.len()]);
         if !matches!(self.measured, Measured::Turn(_)) {
             let mut phi = [zero];
-            element.phi(x, &along.motion, &mut phi);
+            T::phi(&here, &mut phi);
             along.measure = phi[0];
         }
         if let Measured::Kept(initial) = self.measured {
             let (mut s_0, mut s_1) = ([zero], [zero]);
-            element.component(x, &along.motion, &mut s_0);
-            element.component(x, &[[one, zero, zero]], &mut s_1);
+            T::component(&here, &mut s_0);
+            T::component(&at(&[[one, zero, zero]]), &mut s_1);
             let phi = along.measure;
             let [s_0, s_1] = [s_0[0], s_1[0] - s_0[0]];
             let s = (s_0 * s_0 + two * s_1 * phi).sqrt();
             along.measure = T::from(initial) + two * phi / (s_0 + s);
             along.kept = Some([s, s_1]);
         }
-        for (entry, value) in K::SPEC.c.iter().zip(entries) {
+        for (entry, value) in spec.c.iter().zip(entries) {
             along.gradient[S::N_DOF * entry.slot + entry.dof] = match along.kept {
                 Some([s, _]) => value / s,
                 None => value,
@@ -183,11 +188,9 @@ impl<K> LawDrive<K> {
         along
     }
 
-    fn force<S: Kinematics>(&self, x: &[PoseOf<S>], v: &[TwistOf<S>], f: &[[f64; 3]]) -> DriveForce
-    where
-        K: Constraint<S>,
-    {
-        let along = self.along::<f64, S>(x, f);
+    /// What the law takes and gives.
+    fn drive_force(&self, x: &[PoseOf<S>], v: &[TwistOf<S>], f: &[[f64; 3]]) -> DriveForce {
+        let along = self.along::<f64>(x, f);
         let (measure, rate) = (along.measure, along.rate::<S>(v));
         DriveForce {
             measure,
@@ -196,11 +199,31 @@ impl<K> LawDrive<K> {
         }
     }
 
+    /// Entries of Q.
+    fn entries<T: Smooth + Evaluated>(
+        &self,
+        x: &[PoseOf<S, T>],
+        v: &[TwistOf<S, T>],
+        f: &[[T; 3]],
+        out: &mut [T],
+    ) {
+        let along = self.along::<T>(x, f);
+        let force = self.law.force([along.measure, along.rate::<S>(v), f[0][0]]);
+        let force = force.unwrap_or_else(|_| T::from(f64::NAN));
+        for (out, g) in out.iter_mut().zip(along.gradient) {
+            *out = force * g;
+        }
+    }
+}
+
+/// The facts of a law on the measure of a drive.
+struct Facts<K, S>(std::marker::PhantomData<(K, S)>);
+
+impl<K: Constraint<S>, S: Kinematics> Facts<K, S> {
+    const SPEC: ForceSpec = Self::spec();
+
     /// All columns: which of them vanish is left to the columns of C.
-    const fn spec<S: Kinematics>() -> ForceSpec
-    where
-        K: Constraint<S>,
-    {
+    const fn spec() -> ForceSpec {
         let spec: &ConstraintSpec = &K::SPEC;
         let n = S::N_DOF * spec.common.slots.len();
         ForceSpec {
@@ -215,42 +238,29 @@ impl<K> LawDrive<K> {
     }
 }
 
-/// The facts of a law in a space.
-struct Facts<K, S>(std::marker::PhantomData<(K, S)>);
-
-impl<K: Constraint<S>, S: Kinematics> Facts<K, S> {
-    const SPEC: ForceSpec = LawDrive::<K>::spec::<S>();
-}
-
-impl<T: Smooth, K: Constraint<S>, S: Kinematics> ForceElement<T, S> for LawDrive<K> {
+impl<S: Kinematics> ForceElement<f64, S> for LawDrive<S> {
     fn spec(&self) -> &'static ForceSpec {
-        &Facts::<K, S>::SPEC
+        self.facts
     }
 
-    fn q(&self, x: &[PoseOf<S, T>], v: &[TwistOf<S, T>], f: &[[T; 3]], out: &mut [T]) {
-        let along = self.along::<T, S>(x, f);
-        let force = self.law.force([along.measure, along.rate::<S>(v), f[0][0]]);
-        let force = force.unwrap_or_else(|_| T::from(f64::NAN));
-        for (out, g) in out.iter_mut().zip(along.gradient) {
-            *out = force * g;
-        }
+    fn q(&self, x: &[PoseOf<S>], v: &[TwistOf<S>], f: &[[f64; 3]], out: &mut [f64]) {
+        self.entries(x, v, f, out);
     }
 
-    fn dq_dx(&self, x: &[PoseOf<S, T>], v: &[TwistOf<S, T>], f: &[[T; 3]], out: &mut [T]) {
-        let element: &dyn Derivatives<T, S> = self.drive.derivatives();
-        let [zero, one, nan] = [0.0, 1.0, f64::NAN].map(T::from);
-        let along = self.along::<T, S>(x, f);
+    fn dq_dx(&self, x: &[PoseOf<S>], v: &[TwistOf<S>], f: &[[f64; 3]], out: &mut [f64]) {
+        let (element, spec) = (&self.drive, self.drive.spec());
+        let along = self.along::<f64>(x, f);
         let (g, rate) = (along.gradient, along.rate::<S>(v));
         let Ok(law) = self.law.slope([along.measure, rate, f[0][0]]) else {
-            return out.fill(nan);
+            return out.fill(f64::NAN);
         };
-        let n = S::N_DOF * K::SPEC.common.slots.len();
-        let (s, turn) = along.kept.map_or((one, zero), |[s, s_1]| (s, s_1 / s));
+        let n = S::N_DOF * spec.common.slots.len();
+        let (s, turn) = along.kept.map_or((1.0, 0.0), |[s, s_1]| (s, s_1 / s));
         // ∂rate/∂x and F·∂g/∂x, both without and with the change of s.
-        let mut values = [zero; MOST * MOST];
-        let mut of_rate = [zero; MOST];
+        let mut values = [0.0; MOST * MOST];
+        let mut of_rate = [0.0; MOST];
         element.d_velocity_dx(x, v, &along.motion, &mut values);
-        for (&[_, b], value) in K::SPEC.d_velocity_dx.iter().zip(values) {
+        for (&[_, b], value) in spec.d_velocity_dx.iter().zip(values) {
             of_rate[b] = value / s;
         }
         for (out, k) in out.iter_mut().zip(0..) {
@@ -259,17 +269,17 @@ impl<T: Smooth, K: Constraint<S>, S: Kinematics> ForceElement<T, S> for LawDrive
             let of_law = law.by[0] * g[b] + law.by[1] * of_rate;
             *out = g[a] * (of_law - law.value * turn * g[b]);
         }
-        element.d_force_dx(x, &along.motion, &[one], &mut values);
-        for (&[a, b], value) in K::SPEC.d_force_dx.iter().zip(values) {
-            out[n * a + b] = out[n * a + b] + law.value * value / s;
+        element.d_force_dx(x, &along.motion, &[1.0], &mut values);
+        for (&[a, b], value) in spec.d_force_dx.iter().zip(values) {
+            out[n * a + b] += law.value * value / s;
         }
     }
 
-    fn dq_dv(&self, x: &[PoseOf<S, T>], v: &[TwistOf<S, T>], f: &[[T; 3]], out: &mut [T]) {
-        let along = self.along::<T, S>(x, f);
+    fn dq_dv(&self, x: &[PoseOf<S>], v: &[TwistOf<S>], f: &[[f64; 3]], out: &mut [f64]) {
+        let along = self.along::<f64>(x, f);
         let law = self.law.slope([along.measure, along.rate::<S>(v), f[0][0]]);
-        let by_rate = law.map_or_else(|_| T::from(f64::NAN), |law| law.by[1]);
-        let n = S::N_DOF * K::SPEC.common.slots.len();
+        let by_rate = law.map_or(f64::NAN, |law| law.by[1]);
+        let n = S::N_DOF * self.drive.spec().common.slots.len();
         for (out, k) in out.iter_mut().zip(0..) {
             *out = by_rate * along.gradient[k / n] * along.gradient[k % n];
         }
@@ -280,9 +290,15 @@ impl<T: Smooth, K: Constraint<S>, S: Kinematics> ForceElement<T, S> for LawDrive
 /// its own space of a law, so this cannot be said of all spaces at once.
 macro_rules! force_kernels {
     ($space:ident) => {
-        impl<K: Constraint<$space>> ForceKernels<$space> for LawDrive<K> {
-            fn recorded(&self) -> &dyn ForceElement<Recorded, $space> {
-                self
+        impl ForceKernels<$space> for LawDrive<$space> {
+            fn recorded_q(
+                &self,
+                x: &[PoseOf<$space, Recorded>],
+                v: &[TwistOf<$space, Recorded>],
+                f: &[[Recorded; 3]],
+                out: &mut [Recorded],
+            ) {
+                self.entries(x, v, f, out);
             }
 
             fn boxed(&self) -> Box<dyn ForceKernels<$space>> {
@@ -314,7 +330,7 @@ macro_rules! force_kernels {
                 v: &[TwistOf<$space>],
                 f: &[[f64; 3]],
             ) -> Option<DriveForce> {
-                Some(self.force::<$space>(x, v, f))
+                Some(self.drive_force(x, v, f))
             }
         }
     };

@@ -4,9 +4,8 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
 use joints::spec::ConstraintSpec;
-use joints::{Definition, Derivatives, Element, Magnitude, Pose, Positions, Recorded, Twist};
-use linalg::Dd;
-use model::{ConstraintKernels, Joint};
+use joints::{ConstraintKernels, Definition, Element, Pose, Programs, Reaction, Twist};
+use model::Joint;
 
 /// Calls of kernels.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -54,21 +53,6 @@ impl Watched {
     }
 }
 
-impl ConstraintKernels for Watched {
-    fn extended(&self) -> &dyn Positions<Dd> {
-        self.inner.extended()
-    }
-    fn magnitude(&self) -> &dyn Positions<Magnitude> {
-        self.inner.magnitude()
-    }
-    fn recorded(&self) -> &dyn Element<Recorded> {
-        self.inner.recorded()
-    }
-    fn boxed(&self) -> Box<dyn ConstraintKernels> {
-        Box::new(self.clone())
-    }
-}
-
 impl Definition for Watched {
     fn initialise(&mut self, x: &[Pose]) {
         self.inner.initialise(x);
@@ -87,7 +71,7 @@ impl Definition for Watched {
     }
 }
 
-impl Positions for Watched {
+impl Element for Watched {
     fn spec(&self) -> &'static ConstraintSpec {
         self.inner.spec()
     }
@@ -102,9 +86,6 @@ impl Positions for Watched {
         self.note(x, |calls| &mut calls.c);
         self.inner.c(x, f, out);
     }
-}
-
-impl Element for Watched {
     fn b(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.b);
         self.inner.b(x, f, out);
@@ -113,22 +94,31 @@ impl Element for Watched {
         self.note(x, |calls| &mut calls.gamma);
         self.inner.gamma(x, v, f, out);
     }
+    fn component(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
+        self.inner.component(x, f, out);
+    }
+}
+
+impl Reaction for Watched {
     fn wrench(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.wrench);
         self.inner.wrench(x, f, out);
     }
-    fn component(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
-        self.inner.component(x, f, out);
-    }
     fn place(&self, x: &[Pose]) -> [f64; 2] {
         self.inner.place(x)
     }
-    fn d_phi_dp(&self, x: &[Pose], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
-        self.inner.d_phi_dp(x, f, lambda, out);
-    }
 }
 
-impl Derivatives for Watched {
+impl ConstraintKernels for Watched {
+    fn programs(&self) -> &Programs {
+        self.inner.programs()
+    }
+    fn stored(&self, out: &mut Vec<f64>) {
+        self.inner.stored(out);
+    }
+    fn d_stored_dp(&self, entry: &mut dyn FnMut(usize, usize, f64)) {
+        self.inner.d_stored_dp(entry);
+    }
     fn d_force_dx(&self, x: &[Pose], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.derivatives);
         self.inner.d_force_dx(x, f, lambda, out);
@@ -142,15 +132,7 @@ impl Derivatives for Watched {
     fn d_velocity_dx(&self, x: &[Pose], v: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
         self.inner.d_velocity_dx(x, v, f, out);
     }
-    fn d_residual_dp(
-        &self,
-        x: &[Pose],
-        v: &[Twist],
-        a: &[Twist],
-        f: &[[f64; 3]],
-        lambda: &[f64],
-        out: &mut [f64],
-    ) {
-        self.inner.d_residual_dp(x, v, a, f, lambda, out);
+    fn boxed(&self) -> Box<dyn ConstraintKernels> {
+        Box::new(self.clone())
     }
 }

@@ -515,9 +515,6 @@ impl Definition<Space3> for Bushing {
             ]
         };
     }
-    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        true
-    }
     fn points(&self) -> Vec<[f64; 3]> {
         vec![self.s_i, self.s_j]
     }

@@ -69,10 +69,6 @@ impl Force<Space3> for PointForce {
 }
 #[allow(unused_variables)]
 impl Definition<Space3> for PointForce {
-    fn initialise(&mut self, x: &[Pose]) {}
-    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        true
-    }
     fn points(&self) -> Vec<[f64; 3]> {
         vec![self.s]
     }

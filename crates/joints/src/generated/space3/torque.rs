@@ -56,15 +56,7 @@ impl Force<Space3> for Torque {
     }
 }
 #[allow(unused_variables)]
-impl Definition<Space3> for Torque {
-    fn initialise(&mut self, x: &[Pose]) {}
-    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        true
-    }
-    fn points(&self) -> Vec<[f64; 3]> {
-        vec![]
-    }
-}
+impl Definition<Space3> for Torque {}
 #[allow(unused_variables)]
 impl<T: Real> ForceElement<T, Space3> for Torque {
     fn spec(&self) -> &'static ForceSpec {

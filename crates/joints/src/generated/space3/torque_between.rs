@@ -69,15 +69,7 @@ impl Force<Space3> for TorqueBetween {
     }
 }
 #[allow(unused_variables)]
-impl Definition<Space3> for TorqueBetween {
-    fn initialise(&mut self, x: &[Pose]) {}
-    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        true
-    }
-    fn points(&self) -> Vec<[f64; 3]> {
-        vec![]
-    }
-}
+impl Definition<Space3> for TorqueBetween {}
 #[allow(unused_variables)]
 impl<T: Real> ForceElement<T, Space3> for TorqueBetween {
     fn spec(&self) -> &'static ForceSpec {

@@ -1,0 +1,279 @@
+//! The rows of a constraint as programs: lists of additions and multiplications, recorded once for
+//! each kind, that run in any number type.
+//!
+//! Motion runs the compiled kernels of `f64`. All else that asks for the rows, in doubled
+//! precision, by the sizes of their terms, with derivatives or as operations of generated code, is
+//! asked once a configuration: it runs these programs, so that no kernel is compiled for it.
+//!
+//! A program is given numbers in one order: those that the constraint stores
+//! ([`crate::ConstraintKernels::stored`]), the poses of the slots, the functions of time with two
+//! derivatives each, and the twists of the slots.
+
+use crate::constraint::Element;
+use crate::recorded::{Operation, Recorded, record};
+use crate::ring::Ring;
+use crate::space::Space;
+
+/// A place among the values of a program.
+fn place_of(k: usize) -> u32 {
+    u32::try_from(k).unwrap_or(u32::MAX)
+}
+
+/// One operation on values that have places: those that are given, then one for each operation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Step {
+    Number(f64),
+    Add(u32, u32),
+    Sub(u32, u32),
+    Mul(u32, u32),
+    Neg(u32),
+}
+
+/// One kernel as a polynomial in what it is given.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Program {
+    given: usize,
+    steps: Vec<Step>,
+    /// Entries of the output that it writes, each with the place of its value.
+    written: Vec<(usize, u32)>,
+}
+
+impl Program {
+    /// The program of a tape that starts with as many inputs as are given. Entries of `out` that
+    /// are still `unwritten` are not those of the kernel.
+    fn new(given: usize, tape: &[Operation], out: &[Recorded], unwritten: Recorded) -> Self {
+        let mut steps = Vec::new();
+        let mut places: Vec<u32> = Vec::with_capacity(tape.len());
+        for operation in tape {
+            let at = |r: &Recorded| places[r.place()];
+            let step = match operation {
+                Operation::Input(k) => {
+                    places.push(place_of(*k));
+                    continue;
+                }
+                Operation::Number(x) => Step::Number(*x),
+                Operation::Add(a, b) => Step::Add(at(a), at(b)),
+                Operation::Sub(a, b) => Step::Sub(at(a), at(b)),
+                Operation::Mul(a, b) => Step::Mul(at(a), at(b)),
+                Operation::Neg(a) => Step::Neg(at(a)),
+                Operation::Div(..)
+                | Operation::Sqrt(_)
+                | Operation::RecipOrZero(_)
+                | Operation::AngleOverSine(..) => {
+                    unreachable!("rows are polynomials: their number types have no more")
+                }
+            };
+            places.push(place_of(given + steps.len()));
+            steps.push(step);
+        }
+        let entries = out.iter().enumerate();
+        let written = entries.filter(|(_, r)| **r != unwritten);
+        let written = written.map(|(k, r)| (k, places[r.place()])).collect();
+        let program = Self {
+            given,
+            steps,
+            written,
+        };
+        program.without_idle_steps()
+    }
+
+    /// The same without steps that no output needs.
+    fn without_idle_steps(self) -> Self {
+        let mut needed = vec![false; self.steps.len()];
+        let step_of = |place: u32| (place as usize).checked_sub(self.given);
+        for (_, place) in &self.written {
+            if let Some(k) = step_of(*place) {
+                needed[k] = true;
+            }
+        }
+        for k in (0..self.steps.len()).rev() {
+            if !needed[k] {
+                continue;
+            }
+            let operands = match self.steps[k] {
+                Step::Number(_) => [None, None],
+                Step::Neg(a) => [Some(a), None],
+                Step::Add(a, b) | Step::Sub(a, b) | Step::Mul(a, b) => [Some(a), Some(b)],
+            };
+            for k in operands.into_iter().flatten().filter_map(step_of) {
+                needed[k] = true;
+            }
+        }
+        let mut places: Vec<u32> = Vec::with_capacity(self.steps.len());
+        let mut next = place_of(self.given);
+        for &is_needed in &needed {
+            places.push(next);
+            next += u32::from(is_needed);
+        }
+        let moved = |place: u32| step_of(place).map_or(place, |k| places[k]);
+        let kept = self.steps.iter().zip(&needed).filter(|(_, n)| **n);
+        let steps = kept.map(|(step, _)| match *step {
+            Step::Number(x) => Step::Number(x),
+            Step::Add(a, b) => Step::Add(moved(a), moved(b)),
+            Step::Sub(a, b) => Step::Sub(moved(a), moved(b)),
+            Step::Mul(a, b) => Step::Mul(moved(a), moved(b)),
+            Step::Neg(a) => Step::Neg(moved(a)),
+        });
+        Self {
+            given: self.given,
+            steps: steps.collect(),
+            written: self
+                .written
+                .iter()
+                .map(|&(k, place)| (k, moved(place)))
+                .collect(),
+        }
+    }
+
+    /// Runs it on the numbers that it is given.
+    fn run<T: Ring>(&self, mut values: Vec<T>, out: &mut [T]) {
+        debug_assert_eq!(values.len(), self.given);
+        for step in &self.steps {
+            let at = |place: u32| values[place as usize];
+            let value = match *step {
+                Step::Number(x) => T::from(x),
+                Step::Add(a, b) => at(a) + at(b),
+                Step::Sub(a, b) => at(a) - at(b),
+                Step::Mul(a, b) => at(a) * at(b),
+                Step::Neg(a) => -at(a),
+            };
+            values.push(value);
+        }
+        for &(k, place) in &self.written {
+            out[k] = values[place as usize];
+        }
+    }
+}
+
+/// The programs of one kind of constraint.
+#[derive(Clone, Debug)]
+pub struct Programs {
+    phi: Program,
+    c_constant: Program,
+    c: Program,
+    b: Program,
+    gamma: Program,
+    component: Program,
+}
+
+/// What a program is given of a pose: poses, functions of time, and twists if it depends on them.
+type Given<'a, S, T> = (
+    &'a [<S as Space>::Pose<T>],
+    &'a [[T; 3]],
+    &'a [<S as Space>::Twist<T>],
+);
+
+impl Programs {
+    /// Records the kernels of a constraint that stores so many numbers.
+    #[must_use]
+    pub fn record<S: Space>(element: &impl Element<Recorded, S>, stored: usize) -> Self {
+        let spec = element.spec();
+        let (slots, rows) = (spec.common.slots.len(), spec.rows.len());
+        let functions = spec.n_jets();
+        let at_rest = stored + slots * S::N_POSE + 3 * functions;
+        let kernel =
+            |given: usize,
+             outputs: usize,
+             write: &dyn Fn(Given<'_, S, Recorded>, &mut [Recorded])| {
+                let (tape, (out, unwritten)) = record(|| {
+                    let given: Vec<Recorded> = (0..given).map(Recorded::input).collect();
+                    let poses = given[stored..].chunks_exact(S::N_POSE).take(slots);
+                    let x: Vec<_> = poses.map(S::pose).collect();
+                    let jets = given[stored + slots * S::N_POSE..].chunks_exact(3);
+                    let f: Vec<[Recorded; 3]> = jets
+                        .take(functions)
+                        .map(|jet| [jet[0], jet[1], jet[2]])
+                        .collect();
+                    let twists = given
+                        .get(at_rest..)
+                        .unwrap_or_default()
+                        .chunks_exact(S::N_DOF);
+                    let v: Vec<_> = twists.map(S::twist).collect();
+                    let unwritten = Recorded::from(f64::NAN);
+                    let mut out = vec![unwritten; outputs];
+                    write((&x, &f, &v), &mut out);
+                    (out, unwritten)
+                });
+                Program::new(given, &tape, &out, unwritten)
+            };
+        let component = if spec.component.is_some() { rows } else { 0 };
+        Self {
+            phi: kernel(at_rest, spec.holonomic, &|(x, f, _), out| {
+                element.phi(x, f, out)
+            }),
+            c_constant: kernel(at_rest, spec.c.len(), &|_, out| element.c_constant(out)),
+            c: kernel(at_rest, spec.c.len(), &|(x, f, _), out| {
+                element.c(x, f, out)
+            }),
+            b: kernel(at_rest, rows, &|(x, f, _), out| element.b(x, f, out)),
+            gamma: kernel(at_rest + slots * S::N_DOF, rows, &|(x, f, v), out| {
+                element.gamma(x, v, f, out)
+            }),
+            component: kernel(at_rest, component, &|(x, f, _), out| {
+                element.component(x, f, out)
+            }),
+        }
+    }
+
+    /// The rows of a constraint that stores these numbers.
+    #[must_use]
+    pub fn of<'p, T: Ring>(&'p self, stored: &'p [T]) -> Rows<'p, T> {
+        Rows {
+            programs: self,
+            stored,
+        }
+    }
+}
+
+/// The rows of one constraint in any number type, with the outputs of the kernels of [`Element`].
+#[derive(Clone, Copy, Debug)]
+pub struct Rows<'p, T> {
+    programs: &'p Programs,
+    stored: &'p [T],
+}
+
+impl<T: Ring> Rows<'_, T> {
+    /// Φ of the holonomic rows.
+    pub fn phi<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.run::<S>(&self.programs.phi, (x, f, &[]), out);
+    }
+
+    /// The entries of C that depend on parameters only; the others are not changed.
+    pub fn c_constant<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.run::<S>(&self.programs.c_constant, (x, f, &[]), out);
+    }
+
+    /// The other entries of C.
+    pub fn c<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.run::<S>(&self.programs.c, (x, f, &[]), out);
+    }
+
+    /// b; nothing for scleronomic constraints.
+    pub fn b<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.run::<S>(&self.programs.b, (x, f, &[]), out);
+    }
+
+    /// Γ.
+    pub fn gamma<S: Space>(self, x: &[S::Pose<T>], v: &[S::Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.run::<S>(&self.programs.gamma, (x, f, v), out);
+    }
+
+    /// The coefficients of the named component; nothing if there is none.
+    pub fn component<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.run::<S>(&self.programs.component, (x, f, &[]), out);
+    }
+
+    fn run<S: Space>(self, program: &Program, (x, f, v): Given<'_, S, T>, out: &mut [T]) {
+        if program.written.is_empty() {
+            return;
+        }
+        let mut values = Vec::with_capacity(program.given + program.steps.len());
+        values.extend_from_slice(self.stored);
+        x.iter()
+            .for_each(|pose| S::numbers_of_pose(pose, &mut values));
+        values.extend(f.iter().flatten());
+        v.iter()
+            .for_each(|twist| S::numbers_of_twist(twist, &mut values));
+        program.run(values, out);
+    }
+}

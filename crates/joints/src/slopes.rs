@@ -1,0 +1,391 @@
+//! Derivatives of the rows by dual numbers, through the programs of the kernels: by the numbers
+//! that a constraint stores, and by poses and velocities where no closed form is compiled.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use crate::constraint::ConstraintKernels;
+use crate::space::Space;
+
+/// Number of directions of one dual number: the freedoms of a body in space.
+const LANES: usize = 6;
+
+/// A number with its derivatives along a few directions.
+#[derive(Clone, Copy, Debug)]
+struct Dual {
+    value: f64,
+    slopes: [f64; LANES],
+}
+
+impl Dual {
+    fn with(value: f64, slope: impl FnMut(usize) -> f64) -> Self {
+        Self {
+            value,
+            slopes: std::array::from_fn(slope),
+        }
+    }
+}
+
+impl From<f64> for Dual {
+    fn from(value: f64) -> Self {
+        Self::with(value, |_| 0.0)
+    }
+}
+
+impl Add for Dual {
+    type Output = Self;
+
+    fn add(self, y: Self) -> Self {
+        Self::with(self.value + y.value, |k| self.slopes[k] + y.slopes[k])
+    }
+}
+
+impl Sub for Dual {
+    type Output = Self;
+
+    fn sub(self, y: Self) -> Self {
+        Self::with(self.value - y.value, |k| self.slopes[k] - y.slopes[k])
+    }
+}
+
+impl Mul for Dual {
+    type Output = Self;
+
+    fn mul(self, y: Self) -> Self {
+        Self::with(self.value * y.value, |k| {
+            self.slopes[k] * y.value + self.value * y.slopes[k]
+        })
+    }
+}
+
+impl Neg for Dual {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self::with(-self.value, |k| -self.slopes[k])
+    }
+}
+
+/// What the rows depend on.
+#[derive(Clone, Copy)]
+pub(crate) struct At<'a, S: Space> {
+    pub(crate) x: &'a [S::Pose<f64>],
+    /// Without twists there is no Γ.
+    pub(crate) v: Option<&'a [S::Twist<f64>]>,
+    pub(crate) f: &'a [[f64; 3]],
+}
+
+/// The kernels of a constraint with the slopes of their outputs along a few directions.
+struct Seeded {
+    stored: Vec<Dual>,
+    x: Vec<Dual>,
+    v: Vec<Dual>,
+    f: Vec<[Dual; 3]>,
+}
+
+impl Seeded {
+    fn new<S: Space>(kernels: &(impl ConstraintKernels<S> + ?Sized), at: At<'_, S>) -> Self {
+        let mut stored = Vec::new();
+        kernels.stored(&mut stored);
+        let (mut x, mut v) = (Vec::new(), Vec::new());
+        at.x.iter()
+            .for_each(|pose| S::numbers_of_pose(pose, &mut x));
+        let twists = at.v.unwrap_or_default();
+        twists
+            .iter()
+            .for_each(|twist| S::numbers_of_twist(twist, &mut v));
+        let dual = |numbers: Vec<f64>| numbers.into_iter().map(Dual::from).collect();
+        Self {
+            stored: dual(stored),
+            x: dual(x),
+            v: dual(v),
+            f: at.f.iter().map(|jet| jet.map(Dual::from)).collect(),
+        }
+    }
+
+    /// Poses and twists.
+    fn motion<S: Space>(&self) -> (Vec<S::Pose<Dual>>, Vec<S::Twist<Dual>>) {
+        (
+            self.x.chunks_exact(S::N_POSE).map(S::pose).collect(),
+            self.v.chunks_exact(S::N_DOF).map(S::twist).collect(),
+        )
+    }
+
+    /// Lets the body of a slot move along each of its freedoms.
+    fn move_slot<S: Space>(&mut self, slot: usize, pose: &S::Pose<f64>) {
+        let own = &mut self.x[S::N_POSE * slot..][..S::N_POSE];
+        let mut rates = vec![0.0; S::N_POSE];
+        for dof in 0..S::N_DOF {
+            S::rates_of_pose(pose, dof, &mut rates);
+            for (x, rate) in own.iter_mut().zip(&rates) {
+                x.slopes[dof] = *rate;
+            }
+        }
+    }
+
+    /// Lets each velocity of the body of a slot change.
+    fn accelerate_slot<S: Space>(&mut self, slot: usize) {
+        for (dof, v) in self.v[S::N_DOF * slot..][..S::N_DOF].iter_mut().enumerate() {
+            v.slopes[dof] = 1.0;
+        }
+    }
+}
+
+/// Removes all slopes.
+fn still(numbers: &mut [Dual]) {
+    numbers.iter_mut().for_each(|x| x.slopes = [0.0; LANES]);
+}
+
+/// Which kernel is differentiated, with the rows of the block in which its outputs are.
+enum Kernel<'a, S: Space> {
+    /// Cᵀλ
+    Force(&'a [f64]),
+    /// C·a − Γ
+    Residual(&'a [S::Twist<f64>]),
+    /// C·v − b
+    Velocity,
+    /// Γ
+    Gamma,
+}
+
+/// Entries of a derivative by the pose or, of Γ, by velocities, in the order of a pattern.
+fn block<S: Space>(
+    kernels: &(impl ConstraintKernels<S> + ?Sized),
+    at: At<'_, S>,
+    pattern: &[[usize; 2]],
+    kernel: &Kernel<'_, S>,
+    out: &mut [f64],
+) {
+    let spec = kernels.spec();
+    let rows = spec.rows.len();
+    let mut seeded = Seeded::new(kernels, at);
+    let mut factors = Vec::new();
+    match kernel {
+        Kernel::Force(lambda) => factors.extend_from_slice(lambda),
+        Kernel::Residual(a) => a.iter().for_each(|a| S::numbers_of_twist(a, &mut factors)),
+        Kernel::Velocity => factors.extend(seeded.v.iter().map(|v| v.value)),
+        Kernel::Gamma => {}
+    }
+    let column = |e: &crate::spec::Entry| S::N_DOF * e.slot + e.dof;
+    for slot in 0..spec.common.slots.len() {
+        let by_velocity = matches!(kernel, Kernel::Gamma);
+        if by_velocity {
+            seeded.accelerate_slot::<S>(slot);
+        } else {
+            seeded.move_slot::<S>(slot, &at.x[slot]);
+        }
+        let (x, v) = seeded.motion::<S>();
+        let rows_of = kernels.programs().of(&seeded.stored);
+        let zero = Dual::from(0.0);
+        // Slopes of the rows, or of the columns of Cᵀλ.
+        let mut sums = vec![[0.0; LANES]; rows.max(S::N_DOF * spec.common.slots.len())];
+        let mut add = |to: usize, factor: f64, d: &Dual| {
+            let slopes = sums[to].iter_mut().zip(d.slopes);
+            slopes.for_each(|(sum, slope)| *sum += factor * slope);
+        };
+        if !by_velocity {
+            let mut entries = vec![zero; spec.c.len()];
+            rows_of.c::<S>(&x, &seeded.f, &mut entries);
+            for (e, d) in spec.c.iter().zip(&entries) {
+                match kernel {
+                    Kernel::Force(_) => add(column(e), factors[e.row], d),
+                    _ => add(e.row, factors[column(e)], d),
+                }
+            }
+        }
+        let mut right = vec![zero; rows];
+        match kernel {
+            Kernel::Force(_) => {}
+            Kernel::Velocity => rows_of.b::<S>(&x, &seeded.f, &mut right),
+            Kernel::Residual(_) | Kernel::Gamma => {
+                rows_of.gamma::<S>(&x, &v, &seeded.f, &mut right)
+            }
+        }
+        let sign = if by_velocity { 1.0 } else { -1.0 };
+        for (row, d) in right.iter().enumerate() {
+            add(row, sign, d);
+        }
+        for (&[row, column], out) in pattern.iter().zip(&mut *out) {
+            if column / S::N_DOF == slot {
+                *out = sums[row][column % S::N_DOF];
+            }
+        }
+        still(&mut seeded.x);
+        still(&mut seeded.v);
+    }
+}
+
+/// `∂(Cᵀλ)/∂x`, by the pattern of the specification.
+pub(crate) fn d_force_dx<S: Space>(
+    kernels: &(impl ConstraintKernels<S> + ?Sized),
+    (x, f): (&[S::Pose<f64>], &[[f64; 3]]),
+    lambda: &[f64],
+    out: &mut [f64],
+) {
+    let at = At { x, v: None, f };
+    let pattern = kernels.spec().d_force_dx;
+    block(kernels, at, pattern, &Kernel::Force(lambda), out);
+}
+
+/// `∂(C·a − Γ)/∂x`
+pub(crate) fn d_residual_dx<S: Space>(
+    kernels: &(impl ConstraintKernels<S> + ?Sized),
+    at: At<'_, S>,
+    a: &[S::Twist<f64>],
+    out: &mut [f64],
+) {
+    let pattern = kernels.spec().d_residual_dx;
+    block(kernels, at, pattern, &Kernel::Residual(a), out);
+}
+
+/// `∂Γ/∂v`
+pub(crate) fn d_gamma_dv<S: Space>(
+    kernels: &(impl ConstraintKernels<S> + ?Sized),
+    at: At<'_, S>,
+    out: &mut [f64],
+) {
+    block(kernels, at, kernels.spec().d_gamma_dv, &Kernel::Gamma, out);
+}
+
+/// `∂(C·v − b)/∂x`
+pub(crate) fn d_velocity_dx<S: Space>(
+    kernels: &(impl ConstraintKernels<S> + ?Sized),
+    at: At<'_, S>,
+    out: &mut [f64],
+) {
+    block(
+        kernels,
+        at,
+        kernels.spec().d_velocity_dx,
+        &Kernel::Velocity,
+        out,
+    );
+}
+
+/// Which outputs of the rows have slopes.
+#[derive(Clone, Copy, Debug)]
+pub enum Sloped<'a, S: Space> {
+    /// Φ.
+    Phi,
+    /// C.
+    C,
+    /// Φ, C, and Γ at these twists of the slots.
+    All(&'a [S::Twist<f64>]),
+}
+
+/// Derivatives of Φ, C and Γ by each number p of [`crate::Definition::data`]. Values that are
+/// computed from other numbers change with them; values stored at the start do not: they are
+/// numbers of their own.
+///
+/// ```
+/// use joints::{Argument, Constraint, ConstraintKernels, Definition, Pose, Sloped, generated::Distance};
+/// # fn main() -> Result<(), joints::ArgumentError> {
+/// let ends = [Argument::Pair([0.0, 0.0]), Argument::Pair([0.0, 0.0])];
+/// let mut rod = Distance::from_arguments(&ends)?;
+/// let x = [Pose::GROUND, Pose::new(3.0, 4.0, 0.0)];
+/// rod.initialise(&x);
+/// let mut gradient = [0.0; 5];
+/// rod.slopes(&x, &[], Sloped::Phi).phi(&[10.0], &mut gradient);
+/// // Φ = (d·d − L²)/(2L): the derivatives are 10·(∓d/L) for the ends and −10 for the length.
+/// assert_eq!(gradient, [-6.0, -8.0, 6.0, 8.0, -10.0]);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Slopes {
+    /// For each number, those of the holonomic rows of Φ; empty if not asked for, as the others.
+    phi: Vec<f64>,
+    /// For each number, those of the entries of C.
+    c: Vec<f64>,
+    /// For each number, those of the rows of Γ; empty without velocities.
+    gamma: Vec<f64>,
+    entries: &'static [crate::spec::Entry],
+    sizes: [usize; 3],
+    n_dof: usize,
+}
+
+impl Slopes {
+    pub(crate) fn of<S: Space>(
+        kernels: &(impl ConstraintKernels<S> + ?Sized),
+        (x, f): (&[S::Pose<f64>], &[[f64; 3]]),
+        of: Sloped<'_, S>,
+    ) -> Self {
+        let spec = kernels.spec();
+        let n = spec.n_data();
+        let sizes = [spec.holonomic, spec.c.len(), spec.rows.len()];
+        let (v, has_phi, has_c) = match of {
+            Sloped::Phi => (None, true, false),
+            Sloped::C => (None, false, true),
+            Sloped::All(v) => (Some(v), true, true),
+        };
+        let mut slopes = Self {
+            phi: Vec::new(),
+            c: Vec::new(),
+            gamma: Vec::new(),
+            entries: spec.c,
+            sizes,
+            n_dof: S::N_DOF,
+        };
+        let mut of_stored: Vec<(usize, usize, f64)> = Vec::new();
+        kernels.d_stored_dp(&mut |stored, number, slope| of_stored.push((stored, number, slope)));
+        let mut seeded = Seeded::new(kernels, At { x, v, f });
+        let (x, v) = seeded.motion::<S>();
+        for first in (0..n).step_by(LANES) {
+            let lanes = first..n.min(first + LANES);
+            still(&mut seeded.stored);
+            for &(stored, number, slope) in of_stored.iter().filter(|(_, p, _)| lanes.contains(p)) {
+                seeded.stored[stored].slopes[number - first] += slope;
+            }
+            let rows = kernels.programs().of(&seeded.stored);
+            let lanes = lanes.len();
+            let add = |to: &mut Vec<f64>, n: usize, kernel: &dyn Fn(&mut [Dual])| {
+                let mut out = vec![Dual::from(0.0); n];
+                kernel(&mut out);
+                (0..lanes).for_each(|lane| to.extend(out.iter().map(|d| d.slopes[lane])));
+            };
+            let f = &seeded.f;
+            if has_phi {
+                add(&mut slopes.phi, sizes[0], &|out| rows.phi::<S>(&x, f, out));
+            }
+            if has_c {
+                add(&mut slopes.c, sizes[1], &|out| {
+                    rows.c_constant::<S>(&x, f, out);
+                    rows.c::<S>(&x, f, out);
+                });
+            }
+            if !v.is_empty() {
+                add(&mut slopes.gamma, sizes[2], &|out| {
+                    rows.gamma::<S>(&x, &v, f, out)
+                });
+            }
+        }
+        slopes
+    }
+
+    /// Writes `∂(λᵀ·Φ)/∂p`, from the λ of the holonomic rows.
+    pub fn phi(&self, lambda: &[f64], out: &mut [f64]) {
+        let rows = self.sizes[0];
+        for (p, out) in out.iter_mut().enumerate() {
+            let own = self.phi[rows * p..].iter().take(rows).zip(lambda);
+            *out = own.map(|(slope, lambda)| slope * lambda).sum();
+        }
+    }
+
+    /// Writes `∂(λᵀ·C·y)/∂p`, for the velocities or accelerations y of the slots.
+    pub fn power(&self, lambda: &[f64], y: &[f64], out: &mut [f64]) {
+        let factor = |e: &crate::spec::Entry| lambda[e.row] * y[self.n_dof * e.slot + e.dof];
+        for (p, out) in out.iter_mut().enumerate() {
+            let own = self.c[self.sizes[1] * p..].iter().zip(self.entries);
+            *out = own.map(|(slope, entry)| slope * factor(entry)).sum();
+        }
+    }
+
+    /// Writes `∂(λᵀ·(C·a − Γ))/∂p`, for the accelerations of the slots.
+    pub fn residual(&self, lambda: &[f64], a: &[f64], out: &mut [f64]) {
+        self.power(lambda, a, out);
+        let rows = self.sizes[2];
+        for (gamma, out) in self.gamma.chunks_exact(rows).zip(out) {
+            let own = gamma.iter().zip(lambda);
+            *out -= own.map(|(slope, lambda)| slope * lambda).sum::<f64>();
+        }
+    }
+}
