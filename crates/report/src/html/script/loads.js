@@ -1,8 +1,8 @@
 // Arrows: the determined parts of reactions, directions in which the model leaves them open, and the loads of a self-stress.
 
 /** Arrows of what is free in the plane. */
-const FREE_ARROW = new Path2D(doubleArrow(46));
-const FREE_TURN = new Path2D(turning(25, 4.9, 6, 12));
+const FREE_ARROW = new Path(doubleArrow(46));
+const FREE_TURN = new Path(turning(25, 4.9, 6, 12));
 
 /** A force in space as an arrow from a place, or a moment as an arrow with two heads; `size` in pixels is its length seen from the side. */
 function addArrow(picture, layer, place, vector, size, look, isMoment = false) {
@@ -20,7 +20,7 @@ function addArrow(picture, layer, place, vector, size, look, isMoment = false) {
     }
     if (length < 6 && length < 0.4 * size) {
       // Seen from its end.
-      const path = new Path2D();
+      const path = new Path();
       path.arc(from[0], from[1], 4, 0, 2 * Math.PI);
       brush.path(path, look);
       return;
@@ -33,7 +33,7 @@ function addArrow(picture, layer, place, vector, size, look, isMoment = false) {
 /** A moment about the upright of the plane as a turning arrow; `share` is relative to a large one. */
 function addTurning(picture, layer, from, share, look) {
   const d = turning(17, 4.4 * Math.min(picture.arrowScale, 1) * share);
-  picture.add(layer, 0, () => picture.brush.at(from[0], from[1], 0, 1, () => picture.brush.path(new Path2D(d), look)));
+  picture.add(layer, 0, () => picture.brush.at(from[0], from[1], 0, 1, () => picture.brush.path(new Path(d), look)));
 }
 
 /** A wrench at a place, as arrows. */
@@ -93,7 +93,7 @@ function paintFreedom(picture, joint, place, from) {
   const { freedom } = joint;
   const look = brush.looks.of("free");
   const put = (d, angle) => picture.add("freedom", picture.before(from[2], FRONT + 4), () => {
-    brush.at(from[0], from[1], angle, symbolScale, () => brush.path(typeof d === "string" ? new Path2D(d) : d, look));
+    brush.at(from[0], from[1], angle, symbolScale, () => brush.path(typeof d === "string" ? new Path(d) : d, look));
   });
   if (!view) {
     const angle = linear(freedom.angle, instant);

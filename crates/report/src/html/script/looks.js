@@ -2,20 +2,26 @@
 
 /** Hatches of one line style for each verdict. */
 const HATCHES = { hatch: 4, "hatch-wide": 6 };
+/** Width of its line as a share of its pitch. */
+const HATCH_LINE = 0.45;
 
 /** Steps by which symbols among many are turned (rad). */
 const STAMP_TURN = Math.PI / 36;
+
+/** A hatch as a pattern of SVG, with attributes of its ground and of its lines. */
+function drawHatch(defs, id, ground, line) {
+  const pitch = HATCHES[id];
+  const pattern = draw(defs, "pattern", { id, width: pitch, height: pitch, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" });
+  draw(pattern, "rect", { width: pitch, height: pitch, ...ground });
+  draw(pattern, "rect", { width: pitch * HATCH_LINE, height: pitch, ...line });
+}
 
 class Looks {
   constructor(context) {
     this.context = context;
     this.hidden = draw(document.body, "svg", { class: "unseen", "aria-hidden": "true", width: 0, height: 0 });
     const defs = draw(this.hidden, "defs");
-    for (const [id, pitch] of Object.entries(HATCHES)) {
-      const pattern = draw(defs, "pattern", { id, width: pitch, height: pitch, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" });
-      draw(pattern, "rect", { width: pitch, height: pitch, class: "hatch-ground" });
-      draw(pattern, "rect", { width: pitch * 0.45, height: pitch, class: "hatch-line" });
-    }
+    for (const id of Object.keys(HATCHES)) drawHatch(defs, id, { class: "hatch-ground" }, { class: "hatch-line" });
     this.refresh();
   }
 
@@ -72,13 +78,15 @@ class Looks {
     const ratio = 4;
     const tile = Object.assign(document.createElement("canvas"), { width: pitch * ratio, height: pitch * ratio });
     const at = tile.getContext("2d");
-    at.fillStyle = this.of("hatch-ground").fill;
+    const [ground, line] = ["hatch-ground", "hatch-line"].map((name) => this.of(name).fill);
+    at.fillStyle = ground;
     at.fillRect(0, 0, tile.width, tile.height);
-    at.fillStyle = this.of("hatch-line").fill;
-    at.fillRect(0, 0, 0.45 * tile.width, tile.height);
+    at.fillStyle = line;
+    at.fillRect(0, 0, HATCH_LINE * tile.width, tile.height);
     const pattern = this.context.createPattern(tile, "repeat");
     pattern.setTransform(new DOMMatrix().rotateSelf(45).scaleSelf(1 / ratio));
-    return pattern;
+    // A pattern cannot be read: what it is made of is kept with it, for SVG.
+    return Object.assign(pattern, { hatch: { id, ground, line } });
   }
 
   /** Strokes of a symbol of the drawing model: paths with their looks. */
@@ -86,7 +94,7 @@ class Looks {
     const key = `${classes}|${name}`;
     if (!this.symbols.has(key)) {
       const [, , strokes] = data.drawing.shapes[name];
-      this.symbols.set(key, strokes.map(([kind, d]) => [new Path2D(d), classes ? this.of(classes, kind) : this.of(kind)]));
+      this.symbols.set(key, strokes.map(([kind, d]) => [new Path(d), classes ? this.of(classes, kind) : this.of(kind)]));
     }
     return this.symbols.get(key);
   }
@@ -207,7 +215,7 @@ class Brush {
 
   /** A line between places of the page. */
   line(a, b, look, options) {
-    const path = new Path2D();
+    const path = new Path();
     path.moveTo(a[0], a[1]);
     path.lineTo(b[0], b[1]);
     this.path(path, { ...look, fill: null }, options);
@@ -215,7 +223,7 @@ class Brush {
 
   /** A shape that lies along x, from one place of the page towards another. */
   from(a, [dx, dy], d, look, options) {
-    this.at(a[0], a[1], Math.atan2(dy, dx), 1, () => this.path(typeof d === "string" ? new Path2D(d) : d, look, options));
+    this.at(a[0], a[1], Math.atan2(dy, dx), 1, () => this.path(typeof d === "string" ? new Path(d) : d, look, options));
   }
 
   text(words, x, y, look, align = "left") {

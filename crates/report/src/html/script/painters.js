@@ -123,7 +123,7 @@ function paintSolid(picture, { index, solid }, pose, looks) {
     // Light comes from above the left shoulder.
     const shade = 0.12 * (1 - Math.abs(dot3(n, picture.light)));
     picture.add("bodies", near, () => {
-      const path = new Path2D();
+      const path = new Path();
       ring.forEach((k) => path.lineTo(corners[k][0], corners[k][1]));
       path.closePath();
       context.globalAlpha = VEIL;
@@ -247,7 +247,7 @@ function paintWheel(picture, wheel) {
   if (!view) {
     const [x, y] = camera.project(centre);
     picture.add("rails", 0, () => {
-      const path = new Path2D();
+      const path = new Path();
       path.arc(x, y, wheel.r * camera.scale, 0, 2 * Math.PI);
       brush.path(path, look);
     });
@@ -363,7 +363,7 @@ function paintTraces(picture) {
         const part = line.slice(k, k + step + 1);
         const near = part.reduce((sum, at) => sum + at[2], 0) / part.length;
         picture.add("traces", near, () => {
-          const path = new Path2D();
+          const path = new Path();
           part.forEach(([x, y]) => path.lineTo(x, y));
           brush.path(path, look, { halo: view && look.opacity === 1 ? 1.2 : 0 });
         });
@@ -378,7 +378,7 @@ function paintGrid(picture) {
   if (!picture.show.grid) return;
   const look = brush.looks.of("grid", "plain");
   const step = roundStep(64 / camera.scale);
-  const path = new Path2D();
+  const path = new Path();
   if (!view) {
     const [w, h] = camera.page;
     const pitch = step * camera.scale;
@@ -420,7 +420,7 @@ function paintScale(picture) {
   if (!view) {
     const step = roundStep(64 / camera.scale);
     const pitch = step * camera.scale;
-    brush.path(new Path2D(`M18 ${h - 22}v8h${pitch.toFixed(1)}v-8`), look);
+    brush.path(new Path(`M18 ${h - 22}v8h${pitch.toFixed(1)}v-8`), look);
     brush.text(lengthInWords(step), 18 + pitch / 2, h - 20, text, "center");
     return;
   }

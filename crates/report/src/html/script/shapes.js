@@ -1,5 +1,60 @@
 // Shapes in pixels: the symbols of the drawing model, and arrows whose size depends on a load. y points down, as on the page.
 
+/** A path that is painted, and from which SVG can be written: its parts are kept. As a canvas, it leaves out what is not finite. */
+class Path extends Path2D {
+  constructor(d = "") {
+    super(d);
+    this.parts = d ? [d] : [];
+  }
+
+  moveTo(x, y) {
+    if (!Number.isFinite(x + y)) return;
+    super.moveTo(x, y);
+    this.parts.push("M", x, y);
+  }
+
+  lineTo(x, y) {
+    if (!Number.isFinite(x + y)) return;
+    super.lineTo(x, y);
+    this.parts.push(this.parts.length ? "L" : "M", x, y);
+  }
+
+  /** Clockwise on the page, from one angle to another (rad). */
+  arc(x, y, r, from, to) {
+    if (!Number.isFinite(x + y + r + from + to)) return;
+    super.arc(x, y, r, from, to);
+    const turn = 2 * Math.PI;
+    const sweep = to - from >= turn ? turn : (((to - from) % turn) + turn) % turn;
+    const at = (angle) => [x + r * Math.cos(angle), y + r * Math.sin(angle)];
+    this.parts.push(this.parts.length ? "L" : "M", ...at(from));
+    // An arc of SVG that ends where it starts is empty, so each is written as two.
+    for (const share of [0.5, 1]) this.parts.push("A", r, r, 0, 0, 1, ...at(from + share * sweep));
+  }
+
+  closePath() {
+    super.closePath();
+    this.parts.push("Z");
+  }
+
+  /** Path data of SVG. */
+  get written() {
+    return this.parts.map((part) => (typeof part === "string" ? part : tidy(part))).join(" ");
+  }
+}
+
+// A part that is painted and not kept would be lacking in SVG.
+for (const name of Object.getOwnPropertyNames(Path2D.prototype)) {
+  if (Object.hasOwn(Path.prototype, name)) continue;
+  Path.prototype[name] = () => {
+    throw new TypeError(`a path has no ${name}: add it to Path`);
+  };
+}
+
+/** A number with so many decimals at most. */
+function tidy(x, decimals = 2) {
+  return Number(x.toFixed(decimals));
+}
+
 /** An arrow along x from 0 to `length`, head included. */
 function arrow(length, width = 3.2, head = 10) {
   const neck = Math.max(length - head, 0);
@@ -48,14 +103,14 @@ function drawSymbol(group, symbol) {
 function springBetween(a, b) {
   const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
   const length = Math.hypot(dx, dy);
-  const path = new Path2D();
+  const path = new Path();
   data.drawing.spring.forEach(([x, y]) => path.lineTo(a[0] + dx * x - (dy / length) * y, a[1] + dy * x + (dx / length) * y));
   return path;
 }
 
 /** The outline at a distance round the corners of a convex polygon as `hull` orders them. */
 function roundedHull(corners, radius) {
-  const path = new Path2D();
+  const path = new Path();
   const n = corners.length;
   if (n === 1) path.arc(corners[0][0], corners[0][1], radius, 0, 2 * Math.PI);
   else {
