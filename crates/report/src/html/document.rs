@@ -13,7 +13,7 @@ use crate::page::{add, safe, short};
 const STYLE: &str = include_str!("report.css");
 
 /// Scripts in the order of their use; together they are one module.
-const SCRIPTS: [&str; 15] = [
+const SCRIPTS: [&str; 17] = [
     include_str!("script/data.js"),
     include_str!("script/poses.js"),
     include_str!("script/clock.js"),
@@ -21,6 +21,7 @@ const SCRIPTS: [&str; 15] = [
     include_str!("script/solid.js"),
     include_str!("script/camera.js"),
     include_str!("script/looks.js"),
+    include_str!("script/recorder.js"),
     include_str!("script/painters.js"),
     include_str!("script/loads.js"),
     include_str!("script/names.js"),
@@ -28,6 +29,7 @@ const SCRIPTS: [&str; 15] = [
     include_str!("script/picture.js"),
     include_str!("script/first_order.js"),
     include_str!("script/chart.js"),
+    include_str!("script/save.js"),
     include_str!("script/main.js"),
 ];
 
@@ -464,4 +466,53 @@ fn encoded(text: &str) -> String {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    const RECORDER: &str = include_str!("script/recorder.js");
+
+    /// Uses a context to find what is under the pointer, and paints nothing.
+    const POINTER: &str = include_str!("script/pointer.js");
+
+    /// Members of the context of the screen alone: a hatch becomes a pattern of SVG, and a `Pen`
+    /// writes out the symbols that the screen has as stamps.
+    const OF_THE_SCREEN: [&str; 2] = ["createPattern", "drawImage"];
+
+    /// The members of `context` that a script names.
+    fn members_of_context(script: &'static str) -> BTreeSet<&'static str> {
+        let named = script.split("context.").skip(1);
+        named
+            .map(|rest| {
+                let end = rest.find(|c: char| !c.is_ascii_alphanumeric());
+                &rest[..end.unwrap_or(rest.len())]
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_picture_in_a_file_has_all_that_painters_use() {
+        let painters = SCRIPTS.into_iter().filter(|script| *script != POINTER);
+        let used: BTreeSet<&str> = painters.flat_map(members_of_context).collect();
+        assert!(used.len() > 20, "members are not found: {used:?}");
+        let lacking: Vec<&&str> = used
+            .iter()
+            .filter(|name| !OF_THE_SCREEN.contains(name))
+            .filter(|name| !RECORDER.contains(&format!("\n  {name}(")))
+            .filter(|name| !RECORDER.contains(&format!(" {name}: ")))
+            .collect();
+        assert!(lacking.is_empty(), "add to `Recorder`: {lacking:?}");
+    }
+
+    /// What is a `Path2D` and no `Path` cannot be written as SVG.
+    #[test]
+    fn only_paths_that_can_be_written_are_painted() {
+        for script in SCRIPTS {
+            assert!(!script.contains("new Path2D("), "take a `Path`");
+        }
+    }
 }

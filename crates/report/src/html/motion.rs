@@ -30,6 +30,11 @@ const OF_RUN: &str = "<fieldset class=\"option\"><legend>Arrows</legend><input i
 step=\"0.1\" value=\"0\" aria-label=\"Length of arrows\"></fieldset>\n\
 <fieldset class=\"option\"><legend>Trace and plot</legend><div id=\"bodies\"></div></fieldset>\n";
 
+/// Saves the picture as it is seen.
+const SAVE: &str = "<fieldset class=\"option save\"><legend>Save picture</legend>\
+<button id=\"save-svg\" type=\"button\" aria-label=\"Save picture as SVG\">SVG</button>\
+<button id=\"save-png\" type=\"button\" aria-label=\"Save picture as PNG\">PNG</button></fieldset>\n";
+
 /// The animation with its controls.
 pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
     let title = title(page);
@@ -78,6 +83,7 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
     out.push_str(
         "<fieldset class=\"option\"><legend>Show</legend><div id=\"options\"></div></fieldset>\n",
     );
+    out.push_str(SAVE);
     if page.run().is_some() {
         out.push_str(OF_RUN);
     }

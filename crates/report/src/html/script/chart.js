@@ -42,6 +42,7 @@ class Chart {
     this.caption = make(this.figure, "figcaption");
     this.title = make(this.caption, "span", { className: "title", textContent: options.title });
     this.badge = make(this.caption, "span", { className: "badge" });
+    this.menu = saveMenu(this);
     this.legend = make(this.figure, "div", { className: "legend" });
     this.svg = draw(null, "svg", { class: "plot", role: "img", tabindex: "-1" });
     this.figure.append(this.svg);
@@ -75,6 +76,7 @@ class Chart {
     this.floor = factor * floor;
     const words = name ? `${this.options.title} (${name})` : this.options.title;
     this.title.textContent = words;
+    this.menu.setAttribute("aria-label", `Save the chart ${words}`);
     this.badge.className = `badge ${badge ?? ""}`;
     this.badge.textContent = badge ? badge.replace("_", " ") : "";
     this.legend.replaceChildren();

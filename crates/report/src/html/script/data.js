@@ -125,6 +125,12 @@ function rangeOf(curves) {
   return low <= high ? [low, high] : null;
 }
 
+/** A time of the run (s): all have as many decimals. */
+function timeInWords(t) {
+  const decimals = Math.max(0, 3 - Math.floor(Math.log10(tLast || 1)));
+  return t.toFixed(Math.min(decimals, 9));
+}
+
 /** A number with so many digits, as people write it. */
 function spoken(x, digits = 4) {
   if (!Number.isFinite(x)) return "–";

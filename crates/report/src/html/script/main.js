@@ -34,8 +34,6 @@ function naturalRate() {
 
 function setUpTransport() {
   const [play, scrub, time, speed] = ["play", "scrub", "time", "speed"].map(byId);
-  const digits = Math.max(0, 3 - Math.floor(Math.log10(tLast || 1)));
-  const inWords = (t) => t.toFixed(Math.min(digits, 9));
   Object.assign(scrub, { min: tFirst, max: tLast, step: (tLast - tFirst) / 2000 || 1, value: tFirst });
   const base = naturalRate();
   for (const factor of [0.1, 0.25, 0.5, 1, 2, 4]) {
@@ -55,9 +53,9 @@ function setUpTransport() {
   clock.onChange(false);
   clock.listeners.push((t) => {
     scrub.value = t;
-    scrub.setAttribute("aria-valuetext", `${inWords(t)} s`);
-    time.textContent = `${inWords(t)} s`;
-    byId("now").textContent = `t = ${inWords(t)} s`;
+    scrub.setAttribute("aria-valuetext", `${timeInWords(t)} s`);
+    time.textContent = `${timeInWords(t)} s`;
+    byId("now").textContent = `t = ${timeInWords(t)} s`;
   });
   const marks = byId("marks");
   for (const event of data.events) {
@@ -449,6 +447,7 @@ function start() {
   });
   setUpOptions(picture);
   setUpViews(picture);
+  setUpSave(picture);
   setUpFirstOrder(picture);
   placeNamesAtRest(picture);
   showSymbols();

@@ -232,6 +232,17 @@ class Picture {
     this.painted = (this.painted ?? 0) + 1;
   }
 
+  /** Paints the picture as it is seen now with another brush, without the mark of the body under the pointer. */
+  paintWith(other, ratio) {
+    const { brush, hovered } = this;
+    Object.assign(this, { brush: other, hovered: undefined });
+    try {
+      this.paint(ratio);
+    } finally {
+      Object.assign(this, { brush, hovered });
+    }
+  }
+
   /** Something to be painted: in the plane in its layer, in space at its distance (m, towards the eye). */
   add(layer, near, paint) {
     this.items.push({ key: view ? near : LAYER[layer], paint });
