@@ -5,7 +5,7 @@
 
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
-import { mkdirSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
@@ -21,6 +21,18 @@ const CROWD_LOAD = 5000;
 
 /** Least rate of a crowd (1/s). Thirty are the aim, and are reached where nothing else runs; this is what a machine at work leaves of it. */
 const CROWD_RATE = 12;
+
+/** Two pixels differ if a channel of theirs differs by more than this, of 255: a quarter, as edges are smoothed in other ways. */
+const PIXEL_DIFFERS = 64;
+
+/**
+ * Less than this share of what is painted differs in a saved SVG (0.5 % do, and 1.1 % where the words of the smallest picture are lost) and in a
+ * PNG, of which two pixels are averaged (1.7 %).
+ */
+const DIFFER = { svg: 0.008, png: 0.03 };
+
+/** The same in a crowd (3.9 % and 7.3 %), whose symbols stand on the screen at whole pixels, turned by whole steps. */
+const CROWD_DIFFERS = { svg: 0.06, png: 0.1 };
 
 /** Browsers at a time. */
 const BROWSERS = 4;
@@ -381,6 +393,124 @@ async function nearerHides(page) {
   }
 }
 
+/** In a page: the size of a picture, and how many pixels of another one differ from it, as a share of those that are not ground. */
+const COMPARED = `async (own, other) => {
+  const load = (src) => new Promise((done, failed) => {
+    const image = new Image();
+    image.onload = () => done(image);
+    image.onerror = () => failed(new Error("not a picture: " + src.slice(0, 40)));
+    image.src = src;
+  });
+  const images = await Promise.all([own, other].map(load));
+  const [width, height] = [images[0].width, images[0].height];
+  const [a, b] = images.map((image) => {
+    const context = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+    context.imageSmoothingQuality = "high";
+    context.drawImage(image, 0, 0, width, height);
+    return context.getImageData(0, 0, width, height).data;
+  });
+  let [painted, differ] = [0, 0];
+  for (let k = 0; k < a.length; k += 4) {
+    const far = (x, y, from) => Math.max(...[0, 1, 2, 3].map((c) => Math.abs(x[k + c] - y[from + c])));
+    if (far(a, a, 0) > 0) painted += 1;
+    if (far(a, b, k) > ${PIXEL_DIFFERS}) differ += 1;
+  }
+  return { width, height, otherWidth: images[1].width, otherHeight: images[1].height, painted, share: differ / painted };
+}`;
+
+const compared = (page, own, other) => page.value(`(${COMPARED})(${JSON.stringify(own)}, ${JSON.stringify(other)})`);
+
+/** An empty folder among the pictures. */
+function emptyFolder(name) {
+  const folder = resolve(pictures, name);
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+  return folder;
+}
+
+/** Clicks a button that saves a file, and takes the file: its name and bytes. */
+async function saved(page, button, folder) {
+  const before = new Set(readdirSync(folder));
+  await page.value(`${button}.click()`);
+  for (let k = 0; k < 50; k += 1) {
+    await wait(100);
+    const name = readdirSync(folder).find((n) => !before.has(n) && !n.endsWith(".crdownload"));
+    if (name) return [name, readFileSync(join(folder, name))];
+  }
+  throw new Error(`${button} saves nothing`);
+}
+
+const asUrl = (type, bytes) => `data:${type};base64,${Buffer.from(bytes).toString("base64")}`;
+
+/** Two files of what `seen` shows, or of the same as each other: their names and bytes, and how they differ from it. */
+async function savedFiles(page, seen, folder, buttonOf) {
+  const files = [];
+  for (const [kind, type] of [["SVG", "image/svg+xml"], ["PNG", "image/png"]]) {
+    const [name, bytes] = await saved(page, buttonOf(kind), folder);
+    const url = asUrl(type, bytes);
+    seen ??= url;
+    files.push({ name, bytes, ...(await compared(page, seen, url)) });
+  }
+  return files;
+}
+
+/** SVG and PNG files of the picture show what the canvas shows, which is returned with the SVG. */
+async function savesPicture(browser, page, folder, name, bounds = DIFFER) {
+  await browser.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
+  await page.move(2, 2);
+  await page.value("Object.assign(pfaffReport.picture, { hovered: undefined }).paint()");
+  const seen = await drawn(page);
+  const [svg, png] = await savedFiles(page, seen, folder, (kind) => `document.getElementById("save-${kind.toLowerCase()}")`);
+  const time = await page.value(`document.getElementById("now").textContent`);
+  const stem = `${name}-t${time.match(/[\d.]+/)[0]}`;
+  assert.deepEqual([svg.name, png.name], [`${stem}.svg`, `${stem}.png`], "names of scene and time");
+  assert.deepEqual([svg.otherWidth, svg.otherHeight], [svg.width, svg.height], "the SVG is as large as the picture");
+  assert.ok(png.otherWidth >= 2 * png.width && png.otherHeight >= 2 * png.height, "the PNG has twice its pixels");
+  assert.ok(svg.share < bounds.svg, `${svg.share} of the SVG differ`);
+  assert.ok(png.share < bounds.png, `${png.share} of the PNG differ`);
+  return [seen, svg.bytes.toString()];
+}
+
+/** The bound of the comparison is exceeded where words, filled shapes or lines are lost. */
+async function seesLosses(page, [seen, svg]) {
+  const kinds = { words: /<text [^>]*>[^<]*<\/text>/g, shapes: /<path [^>]*fill="[#u][^>]*>/g, lines: /<path [^>]*fill="none"[^>]*>/g };
+  for (const [kind, lost] of Object.entries(kinds)) {
+    const { share } = await compared(page, seen, asUrl("image/svg+xml", svg.replace(lost, "")));
+    assert.ok(share > DIFFER.svg, `lost ${kind} are not seen: ${share}`);
+  }
+}
+
+/** What the painters use and the SVG has not is an error, and nothing is saved. */
+async function refusesUnknownMembers(page, folder) {
+  const before = readdirSync(folder).length;
+  for (const use of ["shadowBlur = 2", "rotate(1)", "fill(new Path2D('M0 0H9'))"]) {
+    await page.value(`pfaffReport.picture.names.paint = function () { "use strict"; this.picture.brush.context.${use}; }`);
+    await page.value(`document.getElementById("save-svg").click()`);
+    await wait(100);
+    const [complaint, ...others] = page.complaints.splice(0);
+    assert.match(complaint ?? "saved", /TypeError/, `${use} is refused`);
+    assert.deepEqual(others, []);
+  }
+  await page.value("delete pfaffReport.picture.names.paint; pfaffReport.picture.paint()");
+  assert.equal(readdirSync(folder).length, before, "nothing is saved");
+}
+
+/** Files of a chart: what is seen of it is in the SVG, with title and legend, and the PNG shows the same. */
+async function savesChart(page, folder, name) {
+  const chart = `document.querySelector("#energy-curves .chart")`;
+  const buttonOf = (kind) => `[...${chart}.querySelectorAll(".save button")].find((b) => b.textContent === "${kind}")`;
+  const [svg, png] = await savedFiles(page, null, folder, buttonOf);
+  assert.deepEqual([svg.name, png.name], [`${name}-Energy-J.svg`, `${name}-Energy-J.png`], "names of scene and chart");
+  assert.ok(png.otherWidth >= 2 * png.width, "the PNG has twice its pixels");
+  assert.ok(png.share < DIFFER.png, `${png.share} of the PNG differ`);
+  const words = await page.value(`[...${chart}.querySelectorAll(".title, .entry, .plot text")].map((e) => e.textContent)`);
+  const text = svg.bytes.toString();
+  for (const word of words) assert.ok(text.includes(`>${word}<`), `the SVG lacks ${word}`);
+  const curves = await page.value(`[...${chart}.querySelectorAll(".plot > path.curve")].map((e) => e.getAttribute("d"))`);
+  for (const d of curves) assert.ok(text.includes(d), "the SVG lacks a curve");
+  assert.ok(!/class=|var\(/.test(text), "the SVG depends on the page");
+}
+
 /** A thousand bodies: the page opens at once and shows this many pictures a second by its own counter. */
 async function crowdMoves(browser, file) {
   const began = Date.now();
@@ -393,6 +523,9 @@ async function crowdMoves(browser, file) {
   const rate = await page.value("pfaffReport.clock.picturesPerSecond");
   assert.ok(loaded < CROWD_LOAD, `${loaded} ms until it is shown`);
   assert.ok(rate >= CROWD_RATE, `${rate.toFixed(1)} pictures a second`);
+  await page.value("pfaffReport.clock.pause()");
+  await wait(SETTLED);
+  await savesPicture(browser, page, emptyFolder("crowd"), "crowd", CROWD_DIFFERS);
   assertQuiet(page);
   await browser.send("Target.closeTarget", { targetId: page.target });
   return `${count} bodies, shown after ${loaded} ms, ${rate.toFixed(1)} pictures a second`;
@@ -417,6 +550,7 @@ async function check(browser, name, file) {
   await seek(light, 0.35);
   assert.equal(await isTooWide(light), false, "the page fits its window");
   save("light.png", await light.picture());
+  await seesLosses(light, await savesPicture(browser, light, emptyFolder(`${name}-light`), name));
   const background = (page) => page.value("getComputedStyle(document.body).backgroundColor");
   const bright = await background(light);
   await light.value(`document.getElementById("theme").click()`);
@@ -430,6 +564,10 @@ async function check(browser, name, file) {
   assert.notEqual(await background(dark), bright, "the system's dark colours");
   await seek(dark, 0.35);
   save("dark.png", await dark.picture());
+  const files = emptyFolder(`${name}-dark`);
+  await savesPicture(browser, dark, files, name);
+  await savesChart(dark, files, name);
+  await refusesUnknownMembers(dark, files);
   assertQuiet(dark);
 
   const phone = await opened(browser, file, { width: 390, height: 844, mobile: true });
