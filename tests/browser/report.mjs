@@ -1,5 +1,5 @@
 // Opens reports in headless Chromium and looks whether they live: no errors, a picture that moves and, in space, turns and hides what is
-// behind, curves with content, a dark page, a phone, and paper. Run by `cargo xtask browser`, or as
+// behind, curves with content, a dark page, a phone, paper, and files of the picture and of a chart. Run by `cargo xtask browser`, or as
 //   node tests/browser/report.mjs CHROMIUM PICTURES NAME=report.html ...
 // The pages named `crossing` and `crowd` are those of xtask/src/browser.rs: two bars that cross, and a thousand bodies.
 
