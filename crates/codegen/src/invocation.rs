@@ -24,7 +24,7 @@ impl Invocation {
     /// If the definition starts with another inner attribute.
     ///
     /// ```
-    /// use codegen::{Invocation, Kind};
+    /// use pfaff_codegen::{Invocation, Kind};
     /// let call = "#![runtime = pfaff::joints] plane Rod(i) {}".parse().unwrap();
     /// let call = Invocation::parse(Kind::Constraint, call).unwrap();
     /// assert_eq!(call.runtime.to_string(), "pfaff :: joints");

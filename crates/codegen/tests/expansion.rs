@@ -1,6 +1,6 @@
 //! The complete translation, from tokens to the text of a module.
 
-use codegen::{Kind, expand, expand_file, in_module, kebab_case, snake_case};
+use pfaff_codegen::{Kind, expand, expand_file, in_module, kebab_case, snake_case};
 use quote::quote;
 
 const KNIFE_EDGE: &str = "joint! { plane KnifeEdge(i) {

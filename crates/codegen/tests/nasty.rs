@@ -3,7 +3,7 @@
 
 use std::thread;
 
-use codegen::{Kind, expand};
+use pfaff_codegen::{Kind, expand};
 use proc_macro2::{TokenStream, TokenTree};
 use proptest::prelude::*;
 use quote::quote;

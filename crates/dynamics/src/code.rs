@@ -46,7 +46,7 @@ pub struct CodeSpec {
 /// ```
 /// use std::ops::ControlFlow;
 /// use std::sync::Arc;
-/// use dynamics::{CodeSpec, MotionOptions, RowChoice, SceneCode, prepare, simulate};
+/// use pfaff_dynamics::{CodeSpec, MotionOptions, RowChoice, SceneCode, prepare, simulate};
 /// use model::{Body, Description, Mechanism, StartOptions};
 ///
 /// /// A falling stone without constraints.

@@ -114,8 +114,8 @@ impl RestStability {
 /// the start do not matter.
 ///
 /// ```
-/// use dynamics::equilibrium::{EquilibriumOptions, RestStability, equilibrium};
-/// use dynamics::{RowChoice, prepare};
+/// use pfaff_dynamics::equilibrium::{EquilibriumOptions, RestStability, equilibrium};
+/// use pfaff_dynamics::{RowChoice, prepare};
 /// use joints::Revolute;
 /// use model::{Body, BodyRef, Description, Mechanism, StartOptions};
 ///

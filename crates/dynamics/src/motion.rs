@@ -113,7 +113,7 @@ impl<'m> KeptRowMotion<'m> {
     /// constraints at t.
     ///
     /// ```
-    /// use dynamics::{KeptRowMotion, RowChoice, prepare};
+    /// use pfaff_dynamics::{KeptRowMotion, RowChoice, prepare};
     /// use joints::Angle;
     /// use model::{Body, BodyRef, Description, Joint, Mechanism, StartOptions};
     /// // A body that does not rotate: x and y are independent, its angle is not.

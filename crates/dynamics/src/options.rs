@@ -61,9 +61,9 @@ pub const FORMULATION: &str = "kept-rows";
 /// `None` if it is a valid option.
 ///
 /// ```
-/// let words = dynamics::options::moved("method", "gbs").unwrap();
+/// let words = pfaff_dynamics::options::moved("method", "gbs").unwrap();
 /// assert_eq!(words, "method `gbs` is a comparator of the laboratory (`lab::work_precision`); a run takes `dop853` at tight tolerances");
-/// assert_eq!(dynamics::options::moved("method", "dop853"), None);
+/// assert_eq!(pfaff_dynamics::options::moved("method", "dop853"), None);
 /// ```
 #[must_use]
 pub fn moved(key: &str, value: &str) -> Option<String> {

@@ -101,7 +101,7 @@ pub enum Reactions {
 /// The plan of a run.
 ///
 /// ```
-/// use dynamics::{MotionOptions, Plan, RowChoice, Wanted, prepare};
+/// use pfaff_dynamics::{MotionOptions, Plan, RowChoice, Wanted, prepare};
 /// use joints::Revolute;
 /// use model::{Body, BodyRef, Description, Joint, Mechanism, StartOptions};
 /// // Two pendulums on one ground are independent of each other.
@@ -121,7 +121,7 @@ pub enum Reactions {
 /// assert_eq!(plan.components.len(), 2);
 /// assert_eq!(plan.components[1].name, "right");
 /// assert_eq!(plan.components[1].decisions.method.taken, "dop853");
-/// # Ok::<(), dynamics::MotionError>(())
+/// # Ok::<(), pfaff_dynamics::MotionError>(())
 /// ```
 #[non_exhaustive]
 pub struct Plan<'a> {

@@ -41,7 +41,7 @@ pub use summary::{ComponentSummary, DroppedRows, Failure, Summary};
 ///
 /// ```
 /// use std::ops::ControlFlow;
-/// use dynamics::{MotionOptions, RowChoice, prepare, simulate};
+/// use pfaff_dynamics::{MotionOptions, RowChoice, prepare, simulate};
 /// use joints::{Revolute, RevoluteAngleDrive};
 /// use model::{Body, BodyRef, Description, Law, Mechanism, StartOptions};
 /// // A wheel that a controller brings to 2 rad, without overshoot: J = 0.5, k = 8, c = 2·√(k·J).

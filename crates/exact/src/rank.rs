@@ -9,7 +9,7 @@ use crate::elimination::eliminate;
 /// Exact rank and left null space of a matrix.
 ///
 /// ```
-/// use exact::Exact;
+/// use pfaff_exact::Exact;
 /// // Rows 0 and 1 differ by one part in 2⁶⁶⁴; row 2 is their sum.
 /// let tiny = 2_f64.powi(-664);
 /// let exact = Exact::of(&[[1.0, 0.0], [1.0, tiny], [2.0, tiny]]);
@@ -47,7 +47,7 @@ impl Exact {
     /// The same for whole entries.
     ///
     /// ```
-    /// use exact::Exact;
+    /// use pfaff_exact::Exact;
     /// let rows = [[2, 4], [3, 6]].map(|row| row.map(Into::into).to_vec());
     /// let exact = Exact::of_whole(rows.to_vec());
     /// assert_eq!((exact.rank(), exact.null_space().len()), (1, 1));

@@ -46,7 +46,7 @@ pub enum Singular {
 /// | `force`, `gamma` | n, r | Q, Γ |
 ///
 /// ```
-/// use exact::solve;
+/// use pfaff_exact::solve;
 /// // Two rigidly connected carts, 1 kg and 2⁻⁷⁰ kg, and 3 N on the light one: in f64 the sum of the masses is 1 kg.
 /// let tiny = 2_f64.powi(-70);
 /// let found = solve(&[1.0, tiny], &[[1.0, -1.0]], &[0.0, 3.0], &[0.0]).unwrap();

@@ -124,7 +124,7 @@ impl Refusal {
 ///   <joint name="hinge" axis="0 1 0"/>
 ///   <inertial pos="0 0 -0.5" mass="2" diaginertia="0.17 0.17 0.001"/>
 /// </body></worldbody></mujoco>"#;
-/// let imported = import::import("pendulum.xml", file, &import::Options::default()).unwrap();
+/// let imported = pfaff_import::import("pendulum.xml", file, &pfaff_import::Options::default()).unwrap();
 /// assert!(imported.scene.contains("type = \"revolute\""));
 /// assert!(imported.omissions.is_empty());
 /// ```

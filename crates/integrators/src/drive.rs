@@ -62,7 +62,7 @@ const FACTOR_AFTER_HOOK: f64 = 0.5;
 /// y' = 2t from y(0) = 0 gives y(3) = 9.
 ///
 /// ```
-/// use integrators::{Dopri5, Function, Interval, Options, integrate};
+/// use pfaff_integrators::{Dopri5, Function, Interval, Options, integrate};
 /// use std::ops::ControlFlow;
 ///
 /// let mut ode = Function::new(1, |t, _y: &[f64], dy: &mut [f64]| dy[0] = 2.0 * t);

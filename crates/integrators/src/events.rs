@@ -58,7 +58,7 @@ const WIDTH_IN_EPSILONS: f64 = 2.0;
 /// at 0).
 ///
 /// ```
-/// use integrators::{Crossings, Direction, Dop853, Function, Interval, Options, integrate};
+/// use pfaff_integrators::{Crossings, Direction, Dop853, Function, Interval, Options, integrate};
 /// use std::ops::ControlFlow;
 ///
 /// let mut ode = Function::new(1, |t: f64, _y: &[f64], dy: &mut [f64]| dy[0] = t.cos());
@@ -185,7 +185,7 @@ fn number<E: Error + 'static>(t: f64, g: f64) -> Result<f64, IntegrationError<E>
 /// Free fall from 5 m with g = 10 m/s²: on the ground after 1 s with 10 m/s.
 ///
 /// ```
-/// use integrators::{Direction, Dopri5, End, Function, Interval, Options, integrate_until};
+/// use pfaff_integrators::{Direction, Dopri5, End, Function, Interval, Options, integrate_until};
 ///
 /// let mut fall = Function::new(2, |_t, y: &[f64], dy: &mut [f64]| dy.copy_from_slice(&[y[1], -10.0]));
 /// let (interval, options) = (Interval::new(0.0, 100.0), Options::default());

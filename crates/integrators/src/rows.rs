@@ -28,7 +28,7 @@ pub enum OutputTimes {
 /// Free fall, y = t²: rows at 0, 0.4, 0.8 and 1, with a count of the steps.
 ///
 /// ```
-/// use integrators::{Dopri5, Function, Interval, Options, OutputTimes, Rows, integrate};
+/// use pfaff_integrators::{Dopri5, Function, Interval, Options, OutputTimes, Rows, integrate};
 /// use std::ops::ControlFlow;
 ///
 /// let mut ode = Function::new(1, |t, _y: &[f64], dy: &mut [f64]| dy[0] = 2.0 * t);

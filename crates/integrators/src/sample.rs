@@ -24,7 +24,7 @@ use std::ops::ControlFlow;
 /// Free fall, y = t²: rows at 0, 0.4, 0.8 and at the end.
 ///
 /// ```
-/// use integrators::{Dopri5, Function, Interval, Options, OutputTimes, sample};
+/// use pfaff_integrators::{Dopri5, Function, Interval, Options, OutputTimes, sample};
 /// use std::ops::ControlFlow;
 ///
 /// let mut ode = Function::new(1, |t, _y: &[f64], dy: &mut [f64]| dy[0] = 2.0 * t);

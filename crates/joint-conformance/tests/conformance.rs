@@ -2,11 +2,11 @@
 
 mod mutants;
 
-use joint_conformance::check_all;
 use joints::generated::{plane_constraints, plane_forces};
 use joints::spec::Spec;
 use joints::visitor::Visitor;
 use joints::{Constraint, Force};
+use pfaff_joint_conformance::check_all;
 
 /// An arbitrary number, fixed so that a failure can be reproduced.
 const SEED: u64 = 2013;

@@ -11,16 +11,16 @@ mod pfaff {
     #[macro_export]
     macro_rules! facade_joint {
         ($($definition:tt)*) => {
-            joint_macro::joint! { #![runtime = $crate::pfaff::kernels] $($definition)* }
+            pfaff_joint_macro::joint! { #![runtime = $crate::pfaff::kernels] $($definition)* }
         };
     }
 }
 
-use joint_macro::{force, joint};
 use joints::{
     Constraint, ConstraintKernels, Definition, Element, Force, ForceElement, Pose, Reaction,
     Sloped, Twist,
 };
+use pfaff_joint_macro::{force, joint};
 
 joint! { plane EqualDistance(i, j, k) {
     /// The origin of body k is as far from the origin of body i as from the origin of body j:

@@ -12,7 +12,7 @@ macro_rules! own {
     ($($module:ident)*) => { $(
         mod $module {
             #[allow(unused_imports)]
-            use joint_macro::{force, joint};
+            use pfaff_joint_macro::{force, joint};
             include!(concat!("../../joints/definitions/", stringify!($module), ".rs"));
         }
     )* };

@@ -108,7 +108,7 @@ impl Direction {
     /// The direction of `v`; `None` if `v` is zero or not finite.
     ///
     /// ```
-    /// use joints::Direction;
+    /// use pfaff_joints::Direction;
     /// assert_eq!(Direction::new([3.0, 4.0]).unwrap().xy(), [0.6, 0.8]);
     /// assert!(Direction::new([0.0, 0.0]).is_none());
     /// ```

@@ -46,7 +46,7 @@ thread_local! {
 /// of one recording are invalid in another.
 ///
 /// ```
-/// use joints::recorded::{Operation, Recorded, record};
+/// use pfaff_joints::recorded::{Operation, Recorded, record};
 /// let (tape, y) = record(|| {
 ///     let x = Recorded::input(0);
 ///     x * x - Recorded::from(2.0)

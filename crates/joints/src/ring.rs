@@ -64,7 +64,7 @@ impl Real for f64 {
 /// the result.
 ///
 /// ```
-/// use joints::Magnitude;
+/// use pfaff_joints::Magnitude;
 /// let (x, y) = (Magnitude::from(-3.0), Magnitude::from(3.0));
 /// assert_eq!((x + y).value(), 6.0); // −3 + 3 is 0, a sum of terms of size 3
 /// ```

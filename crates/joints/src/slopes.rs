@@ -277,8 +277,8 @@ pub enum Sloped<'a, S: Space> {
 /// numbers of their own.
 ///
 /// ```
-/// use joints::{Argument, Constraint, ConstraintKernels, Definition, Pose, Sloped, generated::Distance};
-/// # fn main() -> Result<(), joints::ArgumentError> {
+/// use pfaff_joints::{Argument, Constraint, ConstraintKernels, Definition, Pose, Sloped, generated::Distance};
+/// # fn main() -> Result<(), pfaff_joints::ArgumentError> {
 /// let ends = [Argument::Pair([0.0, 0.0]), Argument::Pair([0.0, 0.0])];
 /// let mut rod = Distance::from_arguments(&ends)?;
 /// let x = [Pose::GROUND, Pose::new(3.0, 4.0, 0.0)];

@@ -32,7 +32,7 @@ impl Pose<f64> {
     /// Position and quaternion (w, x, y, z), which need not have length one but must not be zero.
     ///
     /// ```
-    /// use joints::space3::Pose;
+    /// use pfaff_joints::space3::Pose;
     /// // A quarter turn about z.
     /// let pose = Pose::new([0.0; 3], [1.0, 0.0, 0.0, 1.0]);
     /// assert_eq!(pose.to_global([1.0, 0.0, 5.0]), [0.0, 1.0, 5.0]);
@@ -181,7 +181,7 @@ impl Axes {
     /// 1e-6).
     ///
     /// ```
-    /// use joints::space3::Axes;
+    /// use pfaff_joints::space3::Axes;
     /// let axes = Axes::new([0.0, 0.0, 2.0], Some([3.0, 0.0, 7.0])).unwrap();
     /// assert_eq!(axes.uvw(), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
     /// assert_eq!(Axes::new([1.0, 0.0, 0.0], None).unwrap().uvw()[0], [0.0, 1.0, 0.0]);

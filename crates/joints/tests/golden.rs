@@ -10,7 +10,7 @@ mod table;
 use std::collections::BTreeSet;
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use joints::{Constraint, Definition, Force, ForceElement, Plane, Space3, Visitor};
+use pfaff_joints::{Constraint, Definition, Force, ForceElement, Plane, Space3, Visitor};
 use table::{Golden, Tabled, read};
 
 /// Smallest number of poses that determine Φ, a velocity row or a force.
@@ -22,12 +22,12 @@ const TOLERANCE: f64 = 1e-13;
 #[test]
 fn every_definition_agrees_with_its_table() {
     let mut tables = Tables::default();
-    joints::plane_constraints(&mut tables);
-    joints::plane_forces(&mut tables);
+    pfaff_joints::plane_constraints(&mut tables);
+    pfaff_joints::plane_forces(&mut tables);
     tables.are_complete::<Plane>();
     let mut tables = Tables::default();
-    joints::space3::constraints(&mut tables);
-    joints::space3::forces(&mut tables);
+    pfaff_joints::space3::constraints(&mut tables);
+    pfaff_joints::space3::forces(&mut tables);
     tables.are_complete::<Space3>();
 }
 
@@ -184,8 +184,8 @@ fn requirements(golden: &Golden, place: &str, holds: impl Fn(usize) -> bool) {
 /// there, although d has no direction.
 #[test]
 fn a_spring_of_free_length_zero_keeps_its_stiffness_at_length_zero() {
-    use joints::generated::SpringDamper;
-    use joints::{Argument, Pose, Twist};
+    use pfaff_joints::generated::SpringDamper;
+    use pfaff_joints::{Argument, Pose, Twist};
     let number = |n| Argument::Numbers(vec![n]);
     let origin = Argument::Pair([0.0, 0.0]);
     let arguments = [

@@ -6,7 +6,7 @@
 
 use std::time::Instant;
 
-use linalg::{SchurSaddle, SchurStructure, SparseMatrix};
+use pfaff_linalg::{SchurSaddle, SchurStructure, SparseMatrix};
 
 /// Number of runs of each size; the smallest time counts.
 const RUNS: usize = 15;

@@ -11,7 +11,7 @@ use crate::{Dd, Matrix, Scaling};
 /// A dense row-major matrix of [`Dd`].
 ///
 /// ```
-/// use linalg::{Dd, DdMatrix, Matrix};
+/// use pfaff_linalg::{Dd, DdMatrix, Matrix};
 /// let mut c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 2.0], [3.0, 4.0]]));
 /// c[(1, 0)] += Dd::from(1e-25);
 /// assert_eq!((c.nrows(), c.ncols()), (2, 2));

@@ -3,7 +3,7 @@
 /// The numbers below `n` in disjoint sets, at first each alone.
 ///
 /// ```
-/// use linalg::DisjointSets;
+/// use pfaff_linalg::DisjointSets;
 /// let mut sets = DisjointSets::new(5);
 /// sets.join(3, 1);
 /// sets.join(4, 3);

@@ -22,7 +22,7 @@ use crate::powers::scale;
 /// A double-double number.
 ///
 /// ```
-/// use linalg::Dd;
+/// use pfaff_linalg::Dd;
 /// let third = Dd::from(1.0) / Dd::from(3.0);
 /// let left = third * Dd::from(3.0) - Dd::from(1.0);
 /// assert!(left.abs() < Dd::from(1e-31));

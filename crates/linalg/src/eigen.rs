@@ -29,7 +29,7 @@ pub struct Eigenpair {
 /// converge, or an entry is not finite.
 ///
 /// ```
-/// use linalg::{Matrix, eigenpairs};
+/// use pfaff_linalg::{Matrix, eigenpairs};
 /// // ÿ + 0.2·ẏ + y = 0
 /// let pairs = eigenpairs(&Matrix::from_rows(&[[0.0, 1.0], [-1.0, -0.2]])).unwrap();
 /// let [re, im] = pairs[0].value;
@@ -97,7 +97,7 @@ pub struct ZeroEigenvalue {
 /// eigenvalue problem for a degenerate matrix, USSR Comput. Math. Math. Phys. 6 (1966) 1–14).
 ///
 /// ```
-/// use linalg::{Matrix, zero_eigenvalue};
+/// use pfaff_linalg::{Matrix, zero_eigenvalue};
 /// // A free body: ẋ = v, v̇ = 0; and a decay.
 /// let a = Matrix::from_rows(&[[0.0, 1.0, 0.0], [1e-17, 0.0, 0.0], [0.0, 0.0, -3.0]]);
 /// let zero = zero_eigenvalue(&a, 1e-14);

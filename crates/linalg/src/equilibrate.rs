@@ -28,7 +28,7 @@ pub struct Scaling {
 /// get them). Rows and columns of zeros keep the factor 1. Non-finite entries are ignored.
 ///
 /// ```
-/// use linalg::{Matrix, equilibrate};
+/// use pfaff_linalg::{Matrix, equilibrate};
 /// let c = Matrix::from_rows(&[[1e8, 2.0e8], [3e-8, 0.0]]);
 /// let scaled = equilibrate(&c).apply(&c);
 /// assert!(scaled.max_abs() < 4.0 && scaled[(1, 0)] >= 0.5);
@@ -43,7 +43,7 @@ pub fn equilibrate(c: &Matrix) -> Scaling {
 /// `row_blocks` and `col_blocks` number the block of each row and column from 0.
 ///
 /// ```
-/// use linalg::{Matrix, equilibrate_blocks};
+/// use pfaff_linalg::{Matrix, equilibrate_blocks};
 /// let c = Matrix::from_rows(&[[4.0, 0.0], [0.0, 4096.0]]);
 /// let scaling = equilibrate_blocks(&c, &[0, 1], &[0, 0]); // both columns belong to one force
 /// assert_eq!(scaling.cols[0], scaling.cols[1]);

@@ -23,7 +23,7 @@ pub struct SmallSvd {
 /// Singular values and vectors of a small matrix of finite entries.
 ///
 /// ```
-/// use linalg::{Matrix, small_svd};
+/// use pfaff_linalg::{Matrix, small_svd};
 /// let svd = small_svd(&Matrix::from_rows(&[[0.0, 2.0], [3.0, 0.0], [0.0, 0.0]]));
 /// assert_eq!(svd.sigma, [3.0, 2.0]);
 /// assert_eq!((svd.u[(1, 0)].abs(), svd.v[(0, 0)].abs()), (1.0, 1.0));
@@ -75,7 +75,7 @@ pub struct SymmetricEigen {
 /// values of `A + ‖A‖·I`: to roundings of ‖A‖.
 ///
 /// ```
-/// use linalg::{Matrix, symmetric_eigen};
+/// use pfaff_linalg::{Matrix, symmetric_eigen};
 /// let eigen = symmetric_eigen(&Matrix::from_rows(&[[0.0, 2.0], [2.0, 3.0]]));
 /// assert!((eigen.values[0] - 4.0).abs() < 1e-14 && (eigen.values[1] + 1.0).abs() < 1e-14);
 /// ```

@@ -7,14 +7,14 @@ use crate::kernels::{axpy, dot};
 /// `P·A = L·U` of an n×n matrix. Storage is allocated once; `factor` and `solve` do not allocate.
 ///
 /// ```
-/// use linalg::Lu;
+/// use pfaff_linalg::Lu;
 /// let a = [[0.0, 2.0], [4.0, 1.0]];
 /// let mut lu = Lu::new(2);
 /// lu.factor(|i, j| a[i][j])?;
 /// let mut x = [6.0, 11.0];
 /// lu.solve(&mut x);
 /// assert_eq!(x, [2.0, 3.0]);
-/// # Ok::<(), linalg::SingularPivot>(())
+/// # Ok::<(), pfaff_linalg::SingularPivot>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Lu {
@@ -129,10 +129,10 @@ impl Lu {
     ///
     /// ```
     /// let a = [[0.0, 2.0], [4.0, 1.0]];
-    /// let mut lu = linalg::Lu::new(2);
+    /// let mut lu = pfaff_linalg::Lu::new(2);
     /// lu.factor(|i, j| a[i][j])?;
     /// assert!((lu.determinant().value() + 8.0).abs() < 1e-14);
-    /// # Ok::<(), linalg::SingularPivot>(())
+    /// # Ok::<(), pfaff_linalg::SingularPivot>(())
     /// ```
     pub fn determinant(&self) -> Determinant {
         let pivots = (0..self.n).map(|k| self.factors[k * self.n + k]);

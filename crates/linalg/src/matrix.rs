@@ -16,7 +16,7 @@ mod interop;
 /// A dense row-major matrix of `f64`.
 ///
 /// ```
-/// use linalg::Matrix;
+/// use pfaff_linalg::Matrix;
 /// let c = Matrix::from_rows(&[[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]);
 /// assert_eq!((c.nrows(), c.ncols()), (3, 2));
 /// assert_eq!(c[(2, 0)], 5.0);

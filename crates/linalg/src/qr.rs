@@ -27,7 +27,7 @@ pub(crate) use factor::reflect;
 /// vector `v_k` (whose first entry is 1). `Q = H_0·H_1·…`, `H_k = I − τ_k·v_k·v_kᵀ`.
 ///
 /// ```
-/// use linalg::{Matrix, PivotedQr};
+/// use pfaff_linalg::{Matrix, PivotedQr};
 /// // Two parallel constraints and a longer one: the longest comes first.
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [2.0, 0.0], [0.0, 5.0]]);
 /// let qr = PivotedQr::of_rows(c);

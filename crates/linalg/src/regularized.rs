@@ -74,12 +74,12 @@ pub enum StepError {
 /// Computed from a QR factorisation of `[S·J·√W, √μ·I]ᵀ`, so `J·W·Jᵀ` is never formed.
 ///
 /// ```
-/// use linalg::{Matrix, least_squares_step};
+/// use pfaff_linalg::{Matrix, least_squares_step};
 /// // Two contradicting rows x = 1 and x = 3: the middle, up to the damping. y does not move.
 /// let j = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0]]);
 /// let dq = least_squares_step(&j, &[-1.0, -3.0], &[1.0, 1.0], 1e-9)?;
 /// assert!((dq[0] - 2.0).abs() < 1e-8 && dq[1] == 0.0);
-/// # Ok::<(), linalg::StepError>(())
+/// # Ok::<(), pfaff_linalg::StepError>(())
 /// ```
 ///
 /// # Errors

@@ -55,7 +55,7 @@ pub use refine::Refinement;
 /// Solver of the saddle equations for n coordinates and r independent constraint rows.
 ///
 /// ```
-/// use linalg::KeptRowSaddle;
+/// use pfaff_linalg::KeptRowSaddle;
 /// // Unit mass on the line x = y, pushed along x: a = (½, ½), λ = ½ for the row (1, −1).
 /// let c = [1.0, -1.0];
 /// let mut saddle = KeptRowSaddle::new(2, 1)?;
@@ -63,7 +63,7 @@ pub use refine::Refinement;
 /// let (mut a, mut lambda) = ([0.0; 2], [0.0; 1]);
 /// saddle.solve(&[1.0, 0.0], &[0.0], &mut a, &mut lambda)?;
 /// assert_eq!((a, lambda), ([0.5, 0.5], [0.5]));
-/// # Ok::<(), linalg::SaddleError>(())
+/// # Ok::<(), pfaff_linalg::SaddleError>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct KeptRowSaddle {
@@ -97,14 +97,14 @@ impl KeptRowSaddle {
     /// values of a row are those in its columns.
     ///
     /// ```
-    /// use linalg::KeptRowSaddle;
+    /// use pfaff_linalg::KeptRowSaddle;
     /// let mut saddle = KeptRowSaddle::with_columns(3, &[vec![0, 1], vec![2]])?;
     /// let rows: [&[f64]; 2] = [&[1.0, -1.0], &[5.0]];
     /// saddle.factor(|k| rows[k], &[1.0; 3])?;
     /// let (mut a, mut lambda) = ([0.0; 3], [0.0; 2]);
     /// saddle.solve(&[1.0, 0.0, 7.0], &[0.0, 10.0], &mut a, &mut lambda)?;
     /// assert_eq!((a, lambda), ([0.5, 0.5, 2.0], [0.5, 1.0]));
-    /// # Ok::<(), linalg::SaddleError>(())
+    /// # Ok::<(), pfaff_linalg::SaddleError>(())
     /// ```
     ///
     /// # Errors
@@ -209,7 +209,7 @@ impl KeptRowSaddle {
 /// Moments of inertia are used in kg·m²: lengths far from a metre increase it as well.
 ///
 /// ```
-/// assert_eq!(linalg::mass_spread(&[8.0, 0.0, 2.0]), 4.0);
+/// assert_eq!(pfaff_linalg::mass_spread(&[8.0, 0.0, 2.0]), 4.0);
 /// ```
 pub fn mass_spread(mass: &[f64]) -> f64 {
     let (mut lightest, mut heaviest) = (f64::INFINITY, 0.0);

@@ -37,7 +37,7 @@ use tiles::{Lane, SIDE, Tile, triangle};
 /// unless they fail.
 ///
 /// ```
-/// use linalg::{SchurSaddle, SchurStructure, SparseMatrix};
+/// use pfaff_linalg::{SchurSaddle, SchurStructure, SparseMatrix};
 /// // Unit mass on the line x = y, pushed along x: a = (½, ½), λ = ½ for the row (1, −1).
 /// let c = SparseMatrix::from_rows(2, [[(0, 1.0), (1, -1.0)]])?;
 /// let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &[0..2]));

@@ -21,7 +21,7 @@ mod diagonal;
 /// Entries must be finite; otherwise the values have no meaning (but their number is the same).
 ///
 /// ```
-/// use linalg::{Matrix, singular_values};
+/// use pfaff_linalg::{Matrix, singular_values};
 /// let sigma = singular_values(&Matrix::from_rows(&[[3.0, 0.0], [4.0, 5.0]]));
 /// assert!((sigma[0] - 45f64.sqrt()).abs() < 1e-14); // AᵀA has eigenvalues 45 and 5
 /// assert!((sigma[1] - 5f64.sqrt()).abs() < 1e-14);

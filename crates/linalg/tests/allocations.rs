@@ -1,7 +1,7 @@
 //! The saddle solvers allocate only when they are created, and at their first rows, by which the
 //! order of elimination is chosen.
 
-use linalg::{KeptRowSaddle, Matrix, Refinement};
+use pfaff_linalg::{KeptRowSaddle, Matrix, Refinement};
 
 const N: usize = 21;
 const R: usize = 17;

@@ -281,7 +281,7 @@ impl Body {
     /// A point of its frame relative to its centre of mass (m), as joints and forces take it.
     ///
     /// ```
-    /// let rod = model::Body { centre: [0.5, 0.0], ..model::Body::new("rod", 1.0, 0.1) };
+    /// let rod = pfaff_model::Body { centre: [0.5, 0.0], ..pfaff_model::Body::new("rod", 1.0, 0.1) };
     /// assert_eq!(rod.from_centre([1.0, 0.0]), [0.5, 0.0]);
     /// assert_eq!((rod.pose().x, rod.pose().y), (0.5, 0.0));
     /// ```

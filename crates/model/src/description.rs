@@ -20,7 +20,7 @@ use crate::tolerance::Tolerance;
 ///
 /// ```
 /// use joints::Revolute;
-/// use model::{Body, BodyRef, Description, Mechanism, System};
+/// use pfaff_model::{Body, BodyRef, Description, Mechanism, System};
 ///
 /// // A rod at (1, 2), with its centre of mass half a metre below.
 /// let mut pendulum = Description { gravity: [0.0, -9.81], ..Description::new("pendulum") };
@@ -62,7 +62,7 @@ pub type Description = Described<Plane>;
 ///
 /// ```
 /// use joints::space3::{Axes, Revolute};
-/// use model::{BodyRef, Mechanism, SpatialBody, SpatialDescription, System};
+/// use pfaff_model::{BodyRef, Mechanism, SpatialBody, SpatialDescription, System};
 /// // A door on two hinges: five of their ten rows are redundant.
 /// let mut d = SpatialDescription::new("door");
 /// let door = d.body(SpatialBody {
@@ -159,7 +159,7 @@ impl<S: BodySpace> Described<S> {
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
-    /// use model::{Body, BodyRef, Description, Law, Mechanism, System};
+    /// use pfaff_model::{Body, BodyRef, Description, Law, Mechanism, System};
     /// // A wheel that a controller turns to 2 rad.
     /// let mut d = Description::new("wheel");
     /// let wheel = d.body(Body::new("wheel", 1.0, 0.5));
@@ -173,7 +173,7 @@ impl<S: BodySpace> Described<S> {
     /// mechanism.twist(&[0.0, 0.0, 4.0], &mut s);
     /// mechanism.force(&mut s);
     /// assert_eq!(s.force, [0.0, 0.0, 1.0]);
-    /// # Ok::<(), model::law::LawError>(())
+    /// # Ok::<(), pfaff_model::law::LawError>(())
     /// ```
     ///
     /// # Errors
@@ -197,7 +197,7 @@ impl<S: BodySpace> Described<S> {
     /// Adds a force and a torque on a body by a function that is called with the state of the body.
     ///
     /// ```
-    /// use model::{Body, Description, Mechanism, System, Wrench};
+    /// use pfaff_model::{Body, Description, Mechanism, System, Wrench};
     /// // A stone in the wind, which blows with 3 m/s along x.
     /// let mut d = Description::new("stone");
     /// let stone = d.body(Body::new("stone", 1.0, 0.1));
@@ -302,7 +302,7 @@ pub enum SetLawError {
 /// A mechanism before it is assembled, in the plane or in space.
 ///
 /// ```
-/// use model::{AnyDescription, Body, Description, Mechanism};
+/// use pfaff_model::{AnyDescription, Body, Description, Mechanism};
 /// let mut d = Description::new("stone");
 /// d.body(Body::new("stone", 1.0, 1.0));
 /// let d = AnyDescription::from(d);

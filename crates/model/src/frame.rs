@@ -55,7 +55,7 @@ impl FrameState {
     /// (rad): in the plane with full turns, in space by no more than half a turn.
     ///
     /// ```
-    /// use model::{FrameState, SpaceKind};
+    /// use pfaff_model::{FrameState, SpaceKind};
     /// let state = |place, quaternion| FrameState {
     ///     space: SpaceKind::Space3, place, quaternion, ..FrameState::default()
     /// };
@@ -172,7 +172,7 @@ impl<'m> Frames<'m> {
     /// whose frame is at its centre of mass these are its coordinates and velocities, bit for bit.
     ///
     /// ```
-    /// use model::{Body, Description, Mechanism};
+    /// use pfaff_model::{Body, Description, Mechanism};
     /// // A rod whose frame is at its lower end, upright, turning about its centre of mass.
     /// let mut d = Description::new("rod");
     /// d.body(Body { centre: [0.5, 0.0], ..Body::new("rod", 1.0, 0.1) });
@@ -304,7 +304,7 @@ impl<'m> Frames<'m> {
     /// Value of a measure at q and v.
     ///
     /// ```
-    /// use model::{Body, Description, Marker, Measure, MeasureKind, Mechanism};
+    /// use pfaff_model::{Body, Description, Marker, Measure, MeasureKind, Mechanism};
     /// let mut d = Description::new("top");
     /// let body = d.body(Body::new("top", 1.0, 1.0));
     /// d.observed.markers.push(Marker::new("rim", body, [2.0, 0.0, 0.0]));

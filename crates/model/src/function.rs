@@ -16,13 +16,13 @@ pub use parts::Parts;
 /// A scalar function of time.
 ///
 /// ```
-/// use model::Function;
+/// use pfaff_model::Function;
 /// let ramp = Function::steps(0.0, &[[1.0, 2.0, 0.5]])?; // from t = 1 to t = 2 by 0.5
 /// assert_eq!(ramp.jet(0.0), [0.0, 0.0, 0.0]);
 /// assert_eq!(ramp.jet(1.5)[0], 0.25);
 /// assert_eq!(ramp.jet(3.0), [0.5, 0.0, 0.0]);
 /// assert_eq!(ramp.break_times(), [1.0, 2.0]);
-/// # Ok::<(), model::FunctionError>(())
+/// # Ok::<(), pfaff_model::FunctionError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Function(Law);
@@ -206,11 +206,11 @@ impl Function {
     /// If two points have the same time, the value jumps there; at other points the rate jumps.
     ///
     /// ```
-    /// use model::Function;
+    /// use pfaff_model::Function;
     /// let f = Function::lines(&[0.0, 1.0, 1.0, 3.0], &[0.0, 2.0, 5.0, 5.0])?;
     /// assert_eq!(f.jet(0.5), [1.0, 2.0, 0.0]);
     /// assert_eq!((f.jet(1.0_f64.next_down())[1], f.jet(1.0)[0], f.jet(2.0)), (2.0, 5.0, [5.0, 0.0, 0.0]));
-    /// # Ok::<(), model::FunctionError>(())
+    /// # Ok::<(), pfaff_model::FunctionError>(())
     /// ```
     ///
     /// # Errors
@@ -265,7 +265,7 @@ impl Function {
     /// Whether it has the same value at all times.
     ///
     /// ```
-    /// use model::Function;
+    /// use pfaff_model::Function;
     /// assert!(Function::polynomial(&[2.0, 0.0]).unwrap().is_constant());
     /// assert!(!Function::steps(0.0, &[[1.0, 2.0, 0.5]]).unwrap().is_constant());
     /// ```

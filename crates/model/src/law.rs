@@ -29,7 +29,7 @@ use program::Program;
 /// linearisation, a search for rest. Each of them refuses it by name.
 ///
 /// ```
-/// use model::law::{Join, Law, Operation};
+/// use pfaff_model::law::{Join, Law, Operation};
 /// // The torque of a motor, 20 N·m at rest and 0.5 N·m·s/rad less for each rad/s.
 /// let law = Law::new(&[
 ///     Operation::Number(20.0),
@@ -86,7 +86,7 @@ impl Law {
     /// the same for the same state. What is not finite, and an error, ends a run by name.
     ///
     /// ```
-    /// use model::Law;
+    /// use pfaff_model::Law;
     /// // A motor that is switched off at 10 rad/s.
     /// let law = Law::called(|at| Ok(if at.rate < 10.0 { 20.0 - 0.5 * at.rate } else { 0.0 }));
     /// assert_eq!(law.value(0.0, 4.0, 0.0), Ok(18.0));

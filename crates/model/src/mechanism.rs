@@ -40,7 +40,7 @@ pub use work::Work;
 ///
 /// ```
 /// use joints::Revolute;
-/// use model::{Body, BodyRef, Description, Joint, Mechanism, System};
+/// use pfaff_model::{Body, BodyRef, Description, Joint, Mechanism, System};
 /// // A pendulum of length 2 hanging straight down, moving with 1 rad/s.
 /// let pendulum = Description {
 ///     gravity: [0.0, -9.81],
@@ -90,7 +90,7 @@ impl Mechanism {
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
-    /// use model::{Body, BodyRef, Description, Function, Mechanism, System};
+    /// use pfaff_model::{Body, BodyRef, Description, Function, Mechanism, System};
     /// let mut d = Description::new("crank");
     /// let crank = d.body(Body::new("crank", 1.0, 1.0));
     /// let (bodies, s) = ([BodyRef::Ground, crank], [0.0, 0.0]);

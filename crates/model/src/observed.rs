@@ -28,7 +28,7 @@ impl Marker {
     /// Its axes x, y and z in the frame of its body.
     ///
     /// ```
-    /// use model::{BodyRef, Marker};
+    /// use pfaff_model::{BodyRef, Marker};
     /// let mut pin = Marker::new("pin", BodyRef::Ground, [0.0; 3]);
     /// // A quarter turn about x.
     /// pin.orientation = Some([1.0, 1.0, 0.0, 0.0]);

@@ -63,7 +63,7 @@ impl Reaction {
     /// Its components, in the order of [`SpaceKind::components`].
     ///
     /// ```
-    /// use model::{Reaction, SpaceKind};
+    /// use pfaff_model::{Reaction, SpaceKind};
     /// let reaction = Reaction::new(SpaceKind::Plane, &[1.0, 2.0, 3.0], None);
     /// assert_eq!((reaction.force, reaction.torque), ([1.0, 2.0, 0.0], [0.0, 0.0, 3.0]));
     /// assert!(reaction.components(SpaceKind::Plane).eq([1.0, 2.0, 3.0]));

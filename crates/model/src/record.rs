@@ -84,7 +84,7 @@ impl RecordedEquations {
     /// Records Φ, C, b, Γ, Q and q̇ of a mechanism in the plane or in space.
     ///
     /// ```
-    /// use model::{Body, Description, Mechanism, RecordedEquations, record::Input};
+    /// use pfaff_model::{Body, Description, Mechanism, RecordedEquations, record::Input};
     /// let stone = Description {
     ///     gravity: [0.0, -10.0],
     ///     bodies: vec![Body { name: "stone".into(), mass: 2.0, inertia: 1.0, ..Body::default() }],

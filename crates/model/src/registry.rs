@@ -100,7 +100,7 @@ impl<S: BodySpace> Definitions<S> {
 /// All definitions to which a scene may refer, in the plane and in space.
 ///
 /// ```
-/// use model::Registry;
+/// use pfaff_model::Registry;
 /// let registry = Registry::standard();
 /// let revolute = registry.plane().constraints("revolute").next().unwrap();
 /// assert_eq!(revolute.spec.rows.len(), 2);

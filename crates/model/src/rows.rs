@@ -9,7 +9,7 @@ use std::ops::Range;
 /// Rows of C of one joint or drive, ascending.
 ///
 /// ```
-/// use model::RowRanges;
+/// use pfaff_model::RowRanges;
 /// // A wheel in a mechanism with five holonomic rows: it touches by one, rolls by two others.
 /// let wheel = RowRanges { holonomic: 3..4, nonholonomic: 5..7 };
 /// assert_eq!(wheel.iter().collect::<Vec<_>>(), [3, 5, 6]);

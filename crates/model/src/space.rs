@@ -183,7 +183,7 @@ impl SpaceKind {
     /// ```
     /// let (mut q, mut qd) = ([0.0; 7], [0.0; 7]);
     /// (q[3], qd[4]) = (4.0, 2.0);
-    /// assert_eq!(model::SpaceKind::Space3.normalise(&mut q, &mut qd, &(0.5..=2.0)), 1);
+    /// assert_eq!(pfaff_model::SpaceKind::Space3.normalise(&mut q, &mut qd, &(0.5..=2.0)), 1);
     /// assert_eq!((q[3], qd[4]), (1.0, 0.5));
     /// ```
     pub fn normalise(self, q: &mut [f64], qd: &mut [f64], allowed: &RangeInclusive<f64>) -> u64 {
@@ -217,7 +217,7 @@ impl SpaceKind {
     /// velocities.
     ///
     /// ```
-    /// let plane = model::SpaceKind::Plane;
+    /// let plane = pfaff_model::SpaceKind::Plane;
     /// assert_eq!(plane.columns(), ["x", "y", "angle", "vx", "vy", "omega"]);
     /// assert_eq!(plane.velocities(), ["vx", "vy", "omega"]);
     /// assert_eq!(plane.directions(), ["x", "y", "angle"]);
@@ -281,7 +281,7 @@ impl SpaceKind {
     /// body, in ground components: angular velocities in space are in these axes.
     ///
     /// ```
-    /// let plane = model::SpaceKind::Plane;
+    /// let plane = pfaff_model::SpaceKind::Plane;
     /// assert_eq!(plane.rigid_motion(1, [2.0, 3.0, 0.0], [[0.0; 3]; 3]), [0.0, 1.0, 0.0]);
     /// assert_eq!(plane.rigid_motion(2, [2.0, 3.0, 0.0], [[0.0; 3]; 3]), [-3.0, 2.0, 1.0]);
     /// ```

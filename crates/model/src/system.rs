@@ -51,7 +51,7 @@ pub trait System: Sync {
     /// Moves the configuration q (n_q) by d (n_v): translations (m) and rotations (rad).
     ///
     /// ```
-    /// use model::{Body, Description, Mechanism, System};
+    /// use pfaff_model::{Body, Description, Mechanism, System};
     /// let mut d = Description::new("stone");
     /// d.body(Body::new("stone", 1.0, 1.0));
     /// let mechanism = Mechanism::build(&d).unwrap();

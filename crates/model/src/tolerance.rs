@@ -18,7 +18,7 @@ impl Tolerance {
     /// tolerance divided by the size. Returns `None` if neither is stated.
     ///
     /// ```
-    /// use model::Tolerance;
+    /// use pfaff_model::Tolerance;
     /// let drawing = Tolerance { length: Some(1e-4), angle: None };
     /// assert_eq!(drawing.angle_at(2.0), Some(5e-5));
     /// assert_eq!(Tolerance { angle: Some(1e-3), ..drawing }.angle_at(2.0), Some(1e-3));

@@ -11,8 +11,8 @@ impl SpatialBody {
     /// The body with its frame at this pose, body to ground.
     ///
     /// ```
-    /// use model::nalgebra::{Isometry3, Matrix3, Vector3};
-    /// use model::{Mechanism, SpatialBody, SpatialDescription};
+    /// use pfaff_model::nalgebra::{Isometry3, Matrix3, Vector3};
+    /// use pfaff_model::{Mechanism, SpatialBody, SpatialDescription};
     ///
     /// let half_turn = Vector3::z() * std::f64::consts::PI;
     /// let there = Isometry3::new(Vector3::new(1.0, 2.0, 3.0), half_turn);

@@ -10,8 +10,8 @@ const FIRST: usize = 3;
 ///
 /// ```
 /// let names = |n: usize| (1..=n).map(|k| format!("W{k}")).collect::<Vec<_>>();
-/// assert_eq!(model::words::listed(&names(2)), "W1, W2");
-/// assert_eq!(model::words::listed(&names(40)), "W1, W2, W3 and 37 more");
+/// assert_eq!(pfaff_model::words::listed(&names(2)), "W1, W2");
+/// assert_eq!(pfaff_model::words::listed(&names(40)), "W1, W2, W3 and 37 more");
 /// ```
 #[must_use]
 pub fn listed<S: AsRef<str>>(names: &[S]) -> String {
@@ -30,9 +30,9 @@ pub fn listed<S: AsRef<str>>(names: &[S]) -> String {
 /// A number with six significant digits.
 ///
 /// ```
-/// assert_eq!(model::words::rounded(0.500_000_000_001), "0.5");
-/// assert_eq!(model::words::rounded(1234.5678), "1234.57");
-/// assert_eq!(model::words::rounded(1.234_567_8e-9), "1.23457e-9");
+/// assert_eq!(pfaff_model::words::rounded(0.500_000_000_001), "0.5");
+/// assert_eq!(pfaff_model::words::rounded(1234.5678), "1234.57");
+/// assert_eq!(pfaff_model::words::rounded(1.234_567_8e-9), "1.23457e-9");
 /// ```
 #[must_use]
 pub fn rounded(x: f64) -> String {
@@ -56,7 +56,7 @@ const UNITS: [(f64, f64, &str); 4] = [
 /// A length (m) with two digits, in the unit that people say.
 ///
 /// ```
-/// assert_eq!(model::words::length(3.58e-4), "0.36 mm");
+/// assert_eq!(pfaff_model::words::length(3.58e-4), "0.36 mm");
 /// ```
 #[must_use]
 pub fn length(metres: f64) -> String {

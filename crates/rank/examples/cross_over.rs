@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use linalg::{KeptRowSaddle, SchurSaddle, SchurStructure};
 use mechanisms::{Known, chain, grid, table};
-use rank::{Sketch, decide_sparse};
+use pfaff_rank::{Sketch, decide_sparse};
 
 #[path = "../tests/mechanisms/mod.rs"]
 mod mechanisms;

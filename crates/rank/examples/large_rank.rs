@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use linalg::minimum_degree;
 use mechanisms::{Known, chain, grid, table};
-use rank::{CoefficientReading, Sketch, SparsePattern};
+use pfaff_rank::{CoefficientReading, Sketch, SparsePattern};
 
 #[path = "../tests/mechanisms/mod.rs"]
 mod mechanisms;

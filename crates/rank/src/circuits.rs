@@ -51,10 +51,10 @@ pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::{decide_dropping, short_circuits};
+/// use pfaff_rank::{decide_dropping, short_circuits};
 /// // Rows 2 and 3 are equal; each is the sum of rows 0 and 1.
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]]);
-/// let decision = decide_dropping(&c, rank::Accuracy::Rounding, &[2, 3]).unwrap();
+/// let decision = decide_dropping(&c, pfaff_rank::Accuracy::Rounding, &[2, 3]).unwrap();
 /// let rows: Vec<_> = short_circuits(&decision).into_iter().map(|c| c.rows).collect();
 /// assert_eq!(rows, [vec![2, 3], vec![0, 1, 2]]);
 /// ```

@@ -70,10 +70,10 @@ pub fn decide_of_rank<'a>(
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::promising_rows;
+/// use pfaff_rank::promising_rows;
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [2.0, 0.0], [0.0, 3.0]]);
-/// assert_eq!(promising_rows(&c, rank::Accuracy::Rounding)?.len(), 2);
-/// # Ok::<(), rank::RankError>(())
+/// assert_eq!(promising_rows(&c, pfaff_rank::Accuracy::Rounding)?.len(), 2);
+/// # Ok::<(), pfaff_rank::RankError>(())
 /// ```
 ///
 /// # Errors

@@ -92,13 +92,13 @@ impl From<Unclear> for DeletionError {
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::{count_deletions, decide, deletions};
+/// use pfaff_rank::{count_deletions, decide, deletions};
 /// // Row 2 is the sum of rows 0 and 1, row 4 is twice row 3.
 /// let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 2.0]]);
-/// let decision = decide(&c, rank::Accuracy::Rounding)?;
+/// let decision = decide(&c, pfaff_rank::Accuracy::Rounding)?;
 /// assert_eq!(count_deletions(&decision), Ok(6)); // one of three, one of two
 /// assert_eq!(deletions(&decision, 3).unwrap(), [[0, 3], [0, 4], [1, 3]]);
-/// # Ok::<(), rank::RankError>(())
+/// # Ok::<(), pfaff_rank::RankError>(())
 /// ```
 ///
 /// # Errors

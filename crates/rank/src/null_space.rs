@@ -23,11 +23,11 @@ pub struct Components {
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::{decide, dependencies};
+/// use pfaff_rank::{decide, dependencies};
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [0.5, 0.25]]);
-/// let z = dependencies(&decide(&c, rank::Accuracy::Rounding)?);
+/// let z = dependencies(&decide(&c, pfaff_rank::Accuracy::Rounding)?);
 /// assert_eq!(z, Matrix::from_rows(&[[-0.5], [-0.25], [1.0]]));
-/// # Ok::<(), rank::RankError>(())
+/// # Ok::<(), pfaff_rank::RankError>(())
 /// ```
 pub fn dependencies(decision: &RankDecision) -> Matrix {
     scatter(decision, &decision.dependence())
@@ -55,12 +55,12 @@ pub fn support_tolerance(decision: &RankDecision) -> f64 {
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::{components, decide};
+/// use pfaff_rank::{components, decide};
 /// let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [3.0, 0.0, 0.0], [1.0, 1.0, 1.0]]);
-/// let found = components(&decide(&c, rank::Accuracy::Rounding)?);
+/// let found = components(&decide(&c, pfaff_rank::Accuracy::Rounding)?);
 /// assert_eq!(found.coupled, [[0, 2]]);
 /// assert_eq!(found.coloops, [1, 3]);
-/// # Ok::<(), rank::RankError>(())
+/// # Ok::<(), pfaff_rank::RankError>(())
 /// ```
 pub fn components(decision: &RankDecision) -> Components {
     components_of(decision, &Support::new(decision))

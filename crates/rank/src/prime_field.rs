@@ -3,7 +3,7 @@
 //! A determinant that is not zero modulo one prime is not zero; one that is zero modulo primes
 //! whose product exceeds Hadamard's bound is zero. Every finite `f64` is an integer times a power
 //! of two, and a power of two is a unit modulo an odd prime, so constraint matrices are mapped
-//! without error. The choice of rows and minors is in `rank::modular`.
+//! without error. The choice of rows and minors is in `pfaff_rank::modular`.
 //!
 //! The primes have 62 bits and are drawn from a fixed pseudo-random stream. Primes of a special
 //! form are not suitable: modulo the convenient 2⁶¹ − 1 the determinant of [[1, 1], [1, 2⁶¹]]

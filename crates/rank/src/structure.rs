@@ -73,17 +73,17 @@ pub struct Structure {
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::{RowGroup, Settled, structure};
+/// use pfaff_rank::{RowGroup, Settled, structure};
 /// // Block k = column k. Rows 0 and 1 both fix block 0; row 2 connects block 1 to it.
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [2.0, 0.0], [-1.0, 1.0]]);
 /// let groups = [(0..1, true), (1..2, true), (2..3, false)].map(|(rows, ground)| {
 ///     let rows = rows.collect();
 ///     RowGroup { rows, ground }
 /// });
-/// let found = structure(&c, rank::Accuracy::Rounding, &groups, &[0..1, 1..2])?;
+/// let found = structure(&c, pfaff_rank::Accuracy::Rounding, &groups, &[0..1, 1..2])?;
 /// assert_eq!(found.groups, [Settled::Open(0), Settled::Open(0), Settled::Peeled]);
 /// assert_eq!(found.open[0].rows, [0, 1]);
-/// # Ok::<(), rank::RankError>(())
+/// # Ok::<(), pfaff_rank::RankError>(())
 /// ```
 ///
 /// Rows and columns beyond the matrix are left out; a row in several groups, or a column in several

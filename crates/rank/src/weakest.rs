@@ -19,7 +19,7 @@ pub struct WeakestCombination {
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::weakest_combination;
+/// use pfaff_rank::weakest_combination;
 /// let c = Matrix::from_rows(&[[0.0, 1.0], [1e-9, 1.0]]);
 /// let weakest = weakest_combination(&c).unwrap();
 /// assert!((weakest.sigma / (1e-9 / 2f64.sqrt()) - 1.0).abs() < 1e-6);

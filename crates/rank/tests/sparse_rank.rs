@@ -2,7 +2,7 @@
 
 use linalg::SparseMatrix;
 use mechanisms::{Known, chain, grid, table};
-use rank::{CoefficientReading, Sketch, decide_sparse};
+use pfaff_rank::{CoefficientReading, Sketch, decide_sparse};
 
 mod mechanisms;
 
@@ -52,9 +52,9 @@ fn grids_of_welded_bodies() {
 fn kept_rows_are_as_many_and_independent() {
     let known = chain(12);
     let found = decide_sparse(&known.c, 0.0, &known.bodies, Sketch::default()).expect("finite");
-    let kept = rank::decide(
+    let kept = pfaff_rank::decide(
         &known.c.select_rows(&found.kept).dense(),
-        rank::Accuracy::Rounding,
+        pfaff_rank::Accuracy::Rounding,
     )
     .expect("finite");
     assert_eq!((kept.rank, kept.redundancy), (found.rank, 0));
@@ -101,7 +101,8 @@ fn order_and_units_do_not_matter() {
         if decades > 3 && !found.is_decided() {
             // The dense code does not either: equilibration cannot distinguish such units from such
             // sizes.
-            let dense = rank::decide(&c.dense(), rank::Accuracy::Rounding).expect("finite");
+            let dense =
+                pfaff_rank::decide(&c.dense(), pfaff_rank::Accuracy::Rounding).expect("finite");
             assert!(!dense.is_decided());
             continue;
         }

@@ -143,7 +143,7 @@ impl From<&Judgement> for VerdictDocument {
 /// An object whose keys are names, in this order.
 ///
 /// ```
-/// use report::documents::Named;
+/// use pfaff_report::documents::Named;
 /// let masses = Named(vec![("crank".to_owned(), 2.0), ("rod".to_owned(), 1.0)]);
 /// assert_eq!(masses["rod"], 1.0);
 /// assert_eq!(masses.get("slider"), None);

@@ -2,8 +2,8 @@
 
 use joints::Revolute;
 use model::{Body, BodyRef, Description, Joint, Mechanism, System};
-use report::figures::{Marking, histories, history, mechanism, paths};
-use report::{FigureError, Panel, Path, PathRecorder, Series, Style};
+use pfaff_report::figures::{Marking, histories, history, mechanism, paths};
+use pfaff_report::{FigureError, Panel, Path, PathRecorder, Series, Style};
 use solvability::{Verdict, analyse};
 use tests::robot::{robot, steering};
 

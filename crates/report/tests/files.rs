@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 
-use report::OutputDirectory;
+use pfaff_report::OutputDirectory;
 
 /// An empty directory for one test.
 fn place(name: &str) -> PathBuf {
@@ -276,7 +276,7 @@ fn nothing_is_written_through_a_link() {
     assert!(!path.join("x.csv").is_symlink() && !path.join("x.csv.part").exists());
     let single = path.join("y.html");
     symlink(&precious, &single).expect("links");
-    report::replace_file(&single, b"page").expect("writes");
+    pfaff_report::replace_file(&single, b"page").expect("writes");
     assert!(!single.is_symlink());
     assert_eq!(fs::read_to_string(single).expect("readable"), "page");
     assert_eq!(fs::read_to_string(precious).expect("readable"), "mine");

@@ -2,8 +2,8 @@
 
 use joints::space3::{Axes, Revolute};
 use model::{BodyRef, Marker, Mechanism, Reaction, SpaceKind, SpatialBody, SpatialDescription};
-use report::figures::{Marking, mechanism};
-use report::{ReactionTable, Selection, TrajectoryTable, columns_of_reactions};
+use pfaff_report::figures::{Marking, mechanism};
+use pfaff_report::{ReactionTable, Selection, TrajectoryTable, columns_of_reactions};
 use solvability::Chosen;
 
 /// A four-bar in a vertical plane that is turned by `turn` about the vertical axis y.

@@ -13,7 +13,7 @@ use dynamics::KeptRowMotion;
 use model::System;
 use pfaff::model::Registry;
 use pfaff::{AssembledScene, Overrides};
-use scene_codegen::{Choices, Subject, generate};
+use pfaff_scene_codegen::{Choices, Subject, generate};
 
 type Failure = Box<dyn std::error::Error>;
 

@@ -12,9 +12,9 @@ use crate::module::Choices;
 ///
 /// ```no_run
 /// // build.rs
-/// let choices = scene_codegen::Choices { dynamics: Some("pfaff::dynamics".into()), ..Default::default() };
+/// let choices = pfaff_scene_codegen::Choices { dynamics: Some("pfaff::dynamics".into()), ..Default::default() };
 /// let joints = model::Registry::standard();
-/// let said = scene_codegen::to_out_dir("scenes/robot.toml".as_ref(), "robot", &joints, &choices);
+/// let said = pfaff_scene_codegen::to_out_dir("scenes/robot.toml".as_ref(), "robot", &joints, &choices);
 /// println!("{}", said.unwrap());
 /// // src/main.rs: include!(concat!(env!("OUT_DIR"), "/robot.rs")); with `pub mod robot { … }` in it
 /// ```

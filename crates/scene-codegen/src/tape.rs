@@ -29,7 +29,7 @@ pub const LANES: usize = 8;
 /// ```
 /// use std::sync::Arc;
 /// use pfaff::{Overrides, Study};
-/// use scene_codegen::{Subject, Tape};
+/// use pfaff_scene_codegen::{Subject, Tape};
 /// let scene = r#"
 /// scene = { name = "pendulum", space = "plane", gravity = [0.0, -10.0] }
 /// body = [{ name = "bob", mass = 1.0, inertia = 0.0, position = [2.0, 0.0] }]

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use dynamics::{KeptRowMotion, simulate};
 use pfaff::model::Registry;
 use pfaff::{AssembledScene, Overrides, Study};
-use scene_codegen::{Choices, Subject, generate};
+use pfaff_scene_codegen::{Choices, Subject, generate};
 
 mod space;
 
@@ -200,7 +200,7 @@ fn the_checked_in_modules_agree_with_their_scenes() {
             ..Choices::default()
         };
         let registry = Registry::standard();
-        let module = scene_codegen::scene_text(scene, &text, &registry, None, &choices);
+        let module = pfaff_scene_codegen::scene_text(scene, &text, &registry, None, &choices);
         let command =
             format!("`cargo xtask codegen --scene {scene} --out {out} --dynamics {dynamics}`");
         let found = std::fs::read_to_string(root.join(out)).unwrap_or_default();

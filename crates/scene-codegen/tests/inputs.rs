@@ -11,8 +11,8 @@ use linalg::KeptRowSaddle;
 use model::{Registry, System};
 use pfaff::solvability::Chosen;
 use pfaff::{AssembledScene, Overrides, Study};
+use pfaff_scene_codegen::{Choices, CodeError, NotAnInput, State, Subject, scene_tape, scene_text};
 use scene::Template;
-use scene_codegen::{Choices, CodeError, NotAnInput, State, Subject, scene_tape, scene_text};
 
 #[rustfmt::skip]
 #[path = "generated/four_bar.rs"]

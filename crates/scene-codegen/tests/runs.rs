@@ -8,7 +8,7 @@ use dynamics::{EventKind, Method, MotionOptions, Plan, Prepared, Summary, Wanted
 use model::System;
 use pfaff::model::Registry;
 use pfaff::{AssembledScene, Overrides};
-use scene_codegen::{Subject, Tape};
+use pfaff_scene_codegen::{Subject, Tape};
 
 mod space;
 

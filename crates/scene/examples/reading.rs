@@ -35,8 +35,8 @@ fn main() -> ExitCode {
         peak()
     );
     let begin = Instant::now();
-    let scene = scene::read(&path, &text, &Registry::standard());
-    said("scene::read", begin);
+    let scene = pfaff_scene::read(&path, &text, &Registry::standard());
+    said("pfaff_scene::read", begin);
     let scene = match scene {
         Ok(scene) => scene,
         Err(problems) => {

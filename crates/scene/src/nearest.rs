@@ -101,9 +101,9 @@ pub const ELSEWHERE: &[(&str, &str)] = &[
 /// or one of whose letters at most a third differ, and not all. A plural is near.
 ///
 /// ```
-/// assert_eq!(scene::nearest("hinge", ["fixed", "revolute"]), Some("revolute"));
-/// assert_eq!(scene::nearest("dor", ["cart", "door"]), Some("door"));
-/// assert_eq!(scene::nearest("bolt", ["cart", "door"]), None);
+/// assert_eq!(pfaff_scene::nearest("hinge", ["fixed", "revolute"]), Some("revolute"));
+/// assert_eq!(pfaff_scene::nearest("dor", ["cart", "door"]), Some("door"));
+/// assert_eq!(pfaff_scene::nearest("bolt", ["cart", "door"]), None);
 /// ```
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let singular = name.strip_suffix("ies").map(|stem| format!("{stem}y"));

@@ -56,7 +56,7 @@ use crate::tolerance;
 /// ```
 /// use model::Registry;
 /// let text = "[[body]]\nname = \"crank\"\nmas = 2.0\ninertia = 0.1\n";
-/// let problems = scene::read("crank.toml", text, &Registry::standard()).err().unwrap();
+/// let problems = pfaff_scene::read("crank.toml", text, &Registry::standard()).err().unwrap();
 /// let lines: Vec<_> = problems.iter().map(ToString::to_string).collect();
 /// assert_eq!(lines, [
 ///     "crank.toml:1:1: error: the scene needs the section `[scene]`",

@@ -21,7 +21,7 @@ use crate::source_map::{Entry, SourceMap};
 /// ```
 /// use dynamics::MotionOptions;
 /// use model::{Body, Description};
-/// use scene::Scene;
+/// use pfaff_scene::Scene;
 ///
 /// // Without a file: a description, and the requested computations if any.
 /// let mut free = Description::new("free body");

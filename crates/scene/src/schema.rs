@@ -34,7 +34,7 @@ use value::{described, reference};
 /// because names, rows and the assembly of a start are not checked by a schema.
 ///
 /// ```
-/// let schema = scene::schema(&model::Registry::standard());
+/// let schema = pfaff_scene::schema(&model::Registry::standard());
 /// assert_eq!(schema["$defs"]["body"]["properties"]["mass"]["minimum"], 0);
 /// ```
 #[must_use]

@@ -34,15 +34,15 @@ const WHOLE: f64 = 9_007_199_254_740_992.0;
 ///
 /// ```
 /// let text = "[scene]\nname = \"drop\"\n[[body]]\nname = \"bob\"\nmass = 1.0 # kg\n";
-/// let template = scene::Template::new(text, &["body.bob.mass", "body.bob.angle"])?;
+/// let template = pfaff_scene::Template::new(text, &["body.bob.mass", "body.bob.angle"])?;
 /// let changed = template.with(&[2.5, 0.1]);
 /// let body = "[[body]]\nangle = 0.1\nname = \"bob\"\nmass = 2.5 # kg\n";
 /// assert_eq!(changed, format!("[scene]\nname = \"drop\"\n{body}"));
 ///
-/// let wrong = scene::Template::new(text, &["body.bib.mass"]).err().unwrap();
+/// let wrong = pfaff_scene::Template::new(text, &["body.bib.mass"]).err().unwrap();
 /// let words = wrong.to_string();
 /// assert_eq!(words, "`body.bib.mass`: there is no `bib` in `body`; did you mean `bob`?");
-/// # Ok::<(), scene::KeyError>(())
+/// # Ok::<(), pfaff_scene::KeyError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Template {
@@ -136,10 +136,10 @@ impl Template {
     ///
     /// ```
     /// let text = "[scene]\nformat = 2\n[parameters]\nL = 0.3\n";
-    /// let template = scene::Template::new(text, &["L"])?;
+    /// let template = pfaff_scene::Template::new(text, &["L"])?;
     /// assert!(template.with_expressions(&["2*0.2 m"]).ends_with("L = \"2*0.2 m\"\n"));
     /// assert!(template.with_expressions(&["0.5"]).ends_with("L = 0.5\n"));
-    /// # Ok::<(), scene::KeyError>(())
+    /// # Ok::<(), pfaff_scene::KeyError>(())
     /// ```
     ///
     /// # Panics
@@ -172,10 +172,10 @@ impl Template {
     /// ```
     /// let head = "[scene]\nformat = 2\n[parameters]\n";
     /// let text = &format!("{head}L = 0.5\nH = \"L + 20 mm\"\nx = 0.0\n");
-    /// let template = scene::Template::new(text, &["L", "H", "x"])?;
+    /// let template = pfaff_scene::Template::new(text, &["L", "H", "x"])?;
     /// let changed = template.changed_by(&[0.5, 0.25, 0.125]).unwrap();
     /// assert!(changed.ends_with("L = 0.75\nH = \"(L + 20 mm)*1.25\"\nx = 0.125\n"));
-    /// # Ok::<(), scene::KeyError>(())
+    /// # Ok::<(), pfaff_scene::KeyError>(())
     /// ```
     ///
     /// # Panics
@@ -204,14 +204,14 @@ impl Template {
     /// has no number or expression for a key.
     ///
     /// ```
-    /// use scene::{Shift, Template};
+    /// use pfaff_scene::{Shift, Template};
     /// let text = "[scene]\nformat = 2\n[parameters]\nL = 0.5\nH = \"L + 20 mm\"\n";
     /// let template = Template::new(text, &["L", "H"])?;
     /// let shifts = [Shift::By(0.25), Shift::Of(0.5, "mm".into())];
     /// let shifted = template.shifted(&shifts).unwrap();
     /// assert!(shifted.ends_with("L = 0.75\nH = \"(L + 20 mm) + 0.5 mm\"\n"));
     /// assert!(template.shifted(&[Shift::Share(0.5), Shift::Share(0.0)]).unwrap().contains("L = 0.75\n"));
-    /// # Ok::<(), scene::KeyError>(())
+    /// # Ok::<(), pfaff_scene::KeyError>(())
     /// ```
     ///
     /// # Panics

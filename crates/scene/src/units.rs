@@ -23,9 +23,9 @@ impl<'a> WithUnit<'a> {
     /// Reads a number and a unit of expressions. Returns `None` for other texts.
     ///
     /// ```
-    /// let length = scene::WithUnit::read("300mm").unwrap();
+    /// let length = pfaff_scene::WithUnit::read("300mm").unwrap();
     /// assert_eq!((length.number, length.unit, length.in_si(0.5)), (300.0, "mm", 0.0005));
-    /// assert!(scene::WithUnit::read("300").is_none() && scene::WithUnit::read("3 furlongs").is_none());
+    /// assert!(pfaff_scene::WithUnit::read("300").is_none() && pfaff_scene::WithUnit::read("3 furlongs").is_none());
     /// ```
     #[must_use]
     pub fn read(text: &'a str) -> Option<Self> {

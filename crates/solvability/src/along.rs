@@ -42,7 +42,7 @@ pub use data::{Along, AlongError, Difference, GenericRank, Passage, PassageKind,
 /// ```
 /// use joints::Revolute;
 /// use model::{Body, BodyRef, Description, Joint, Mechanism};
-/// use solvability::{State, along_motion};
+/// use pfaff_solvability::{State, along_motion};
 /// // A pendulum has nothing singular.
 /// let pendulum = Description {
 ///     bodies: vec![Body { name: "bob".into(), mass: 1.0, inertia: 1.0, ..Body::default() }],
@@ -62,7 +62,7 @@ pub use data::{Along, AlongError, Difference, GenericRank, Passage, PassageKind,
 /// assert_eq!(along.generic.rank, 2);
 /// assert!(along.verdicts.reactions[0].whole.of_run().is_unique());
 /// assert!(along.stretches.is_empty() && along.passages.is_empty());
-/// # Ok::<(), solvability::AlongError>(())
+/// # Ok::<(), pfaff_solvability::AlongError>(())
 /// ```
 ///
 /// # Errors

@@ -38,7 +38,7 @@ pub struct FrameForms {
 /// ```
 /// use joints::Revolute;
 /// use model::{Body, BodyRef, ConstraintId, Description, Frame, Joint, Mechanism};
-/// use solvability::{certify, judge_frames};
+/// use pfaff_solvability::{certify, judge_frames};
 /// // A beam on two hinges, turned by 30°: the pull along the beam is not determined.
 /// let hinge = |name: &str, x: f64, angle: f64| {
 ///     let at = [x * angle.cos(), x * angle.sin()];

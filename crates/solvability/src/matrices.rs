@@ -30,7 +30,7 @@ pub use error::QueryError;
 ///
 /// ```
 /// use linalg::Matrix;
-/// use solvability::{Solvability, Verdict};
+/// use pfaff_solvability::{Solvability, Verdict};
 /// // Rows 0 and 1 are parallel; row 2 is independent of them.
 /// let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 1.0]]);
 /// let s = Solvability::of(&c, rank::Accuracy::Rounding)?;

@@ -61,7 +61,7 @@ impl Configuration<'_> {
     /// ```
     /// use joints::space3::{Axes, Revolute};
     /// use model::{BodyRef, ConstraintId, Mechanism, SpatialBody, SpatialDescription};
-    /// use solvability::{Configuration, certify};
+    /// use pfaff_solvability::{Configuration, certify};
     /// // A spherical linkage: the axes of four hinges meet in the origin.
     /// let mut d = SpatialDescription::new("spherical linkage");
     /// let link = |name: &str| SpatialBody::new(name, 1.0, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);

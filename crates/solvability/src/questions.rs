@@ -35,7 +35,7 @@ pub use eliminations::EliminationError;
 /// ```
 /// use joints::{Direction, KnifeEdge};
 /// use model::{Body, BodyRef, ConstraintId, Description, Joint, Mechanism};
-/// use solvability::{Group, Questions, analyse};
+/// use pfaff_solvability::{Group, Questions, analyse};
 /// // A cart on two wheels of one axle: each stops the same sideways motion.
 /// let edge = |name: &str, y: f64| {
 ///     let element = KnifeEdge { s: [0.0, y], normal: Direction::Y };

@@ -234,7 +234,7 @@ impl ReactionStretches {
     /// that is zero under any load is unique.
     ///
     /// ```
-    /// use solvability::{ReactionStretches, Verdict, VerdictTrack};
+    /// use pfaff_solvability::{ReactionStretches, Verdict, VerdictTrack};
     /// let track = VerdictTrack::constant([0.0, 2.0], Verdict::NotUnique);
     /// let hinge = ReactionStretches {
     ///     id: model::ConstraintId(0),

@@ -26,7 +26,7 @@ pub use sensitivity::{Datum, Sensitivity, length};
 /// reason than its verdict.
 ///
 /// ```
-/// use solvability::{Value, Verdict};
+/// use pfaff_solvability::{Value, Verdict};
 /// let open = Value::new(3.0, Verdict::NotUnique, None);
 /// assert_eq!((open.determined(), open.of_choice()), (None, None));
 /// assert_eq!(Value::unique(3.0).determined(), Some(3.0));

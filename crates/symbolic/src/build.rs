@@ -12,7 +12,7 @@ impl Program {
     /// A program without operations.
     ///
     /// ```
-    /// use symbolic::{Graph, Program};
+    /// use pfaff_symbolic::{Graph, Program};
     /// let mut names = Graph::new();
     /// let x = names.symbol("x");
     /// let mut p = Program::empty();

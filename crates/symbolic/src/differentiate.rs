@@ -10,7 +10,7 @@ use crate::graph::{Expr, Function, Graph, Node, Symbol};
 /// constants.
 ///
 /// ```
-/// use symbolic::{Derivation, Graph};
+/// use pfaff_symbolic::{Derivation, Graph};
 /// let mut g = Graph::new();
 /// let (cos, sin, a, b) = (g.symbol("cos"), g.symbol("sin"), g.symbol("a"), g.symbol("b"));
 /// let minus_sin = g.neg(sin);

@@ -77,7 +77,7 @@ enum Key {
 /// A set of expressions over named inputs.
 ///
 /// ```
-/// use symbolic::Graph;
+/// use pfaff_symbolic::Graph;
 /// let mut g = Graph::new();
 /// let (x, y) = (g.symbol("x"), g.symbol("y"));
 /// let a = g.add(x, y);

@@ -30,7 +30,7 @@ use crate::solve::KeptEquations;
 /// The Jacobian at one instant, and factors of shifted ones.
 ///
 /// ```
-/// use dynamics::{KeptRowMotion, Reduced, RowChoice, prepare};
+/// use pfaff_dynamics::{KeptRowMotion, Reduced, RowChoice, prepare};
 /// use joints::Revolute;
 /// use model::{Body, BodyRef, Description, Joint, Mechanism, StartOptions};
 /// // A pendulum of length 1 at rest below its pivot: u̇ = −g/(l² + I/m)·l·z with its angle z, here −10/(1 + 0.25) = −8.

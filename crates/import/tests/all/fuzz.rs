@@ -1,8 +1,8 @@
 //! Files with random changes: each is imported or refused, and what is imported is written in a
 //! form that the reader of scenes takes apart. `PFAFF_FUZZ=100000` sets the number of files.
 
-use import::{Axes, Folder, Options};
 use model::Registry;
+use pfaff_import::{Axes, Folder, Options};
 
 use super::{path_of, text_of};
 
@@ -165,7 +165,7 @@ fn changed_files_are_imported_or_refused() {
         } else {
             Axes::Told
         };
-        match import::import(
+        match pfaff_import::import(
             file,
             &text,
             &Options {

@@ -1,6 +1,6 @@
 //! Files that want memory, the stack, or other files.
 
-use import::{Folder, Options};
+use pfaff_import::{Folder, Options};
 
 use super::{first, refused};
 
@@ -37,7 +37,7 @@ fn deep_files_are_read() {
         "</body>".repeat(290),
     );
     let text = format!("<mujoco><worldbody>{open}{close}</worldbody></mujoco>");
-    let done = import::import("deep.xml", &text, &Options::default()).expect("imported");
+    let done = pfaff_import::import("deep.xml", &text, &Options::default()).expect("imported");
     assert_eq!(done.counts, [290, 290]);
 }
 
@@ -65,13 +65,13 @@ fn includes_stay_in_their_folder() {
         "/etc/passwd",
     ] {
         let text = format!("<mujoco><include file='{file}'/></mujoco>");
-        let refusal = import::import("model.xml", &text, &at).expect_err("refused");
+        let refusal = pfaff_import::import("model.xml", &text, &at).expect_err("refused");
         assert_eq!(first(&refusal).0, "P0611", "{file}");
         let refusal = refused(&text);
         assert_eq!(first(&refusal).0, "P0611", "{file} of standard input");
     }
     let text = "<mujoco><include file='self.xml'/></mujoco>";
-    let refusal = import::import("model.xml", text, &at).expect_err("refused");
+    let refusal = pfaff_import::import("model.xml", text, &at).expect_err("refused");
     assert_eq!(
         (first(&refusal).0.as_str(), refusal.file.as_str()),
         ("P0611", "self.xml")
@@ -79,7 +79,7 @@ fn includes_stay_in_their_folder() {
     // Each of two includes of a file in itself has two again: 2^300 of them.
     let twice = "<mujoco><include file='twice.xml'/><include file='twice.xml'/></mujoco>";
     std::fs::write(folder.join("in/twice.xml"), twice).expect("writable");
-    let refusal = import::import("model.xml", twice, &at).expect_err("refused");
+    let refusal = pfaff_import::import("model.xml", twice, &at).expect_err("refused");
     assert_eq!(first(&refusal).0, "P0611");
     // At most 64 files.
     let mut all = String::new();
@@ -87,12 +87,12 @@ fn includes_stay_in_their_folder() {
         std::fs::write(folder.join(format!("in/{k}.xml")), "<mujoco/>").expect("writable");
         all += &format!("<include file='{k}.xml'/>");
     }
-    let refusal = import::import("model.xml", &format!("<mujoco>{all}</mujoco>"), &at);
+    let refusal = pfaff_import::import("model.xml", &format!("<mujoco>{all}</mujoco>"), &at);
     let (code, _, message) = first(&refusal.expect_err("refused"));
     assert_eq!(code, "P0611");
     assert!(message.contains("more than 64 files"), "{message}");
     let fewer = all.replace("<include file='64.xml'/>", "");
-    let refusal = import::import("model.xml", &format!("<mujoco>{fewer}</mujoco>"), &at);
+    let refusal = pfaff_import::import("model.xml", &format!("<mujoco>{fewer}</mujoco>"), &at);
     assert_eq!(first(&refusal.expect_err("no body")).0, "P0609");
     std::fs::remove_dir_all(&folder).expect("removable");
 }

@@ -8,8 +8,8 @@ mod poses;
 mod sdf;
 mod urdf;
 
-use import::{Folder, Imported, Options, Refusal};
 use model::Registry;
+use pfaff_import::{Folder, Imported, Options, Refusal};
 use scene::Scene;
 
 /// A file of this folder.
@@ -32,12 +32,12 @@ fn options_of(file: &str) -> Options {
 
 /// A file of this folder as a scene.
 fn imported(file: &str) -> Imported {
-    let done = import::import(file, &text_of(file), &options_of(file));
+    let done = pfaff_import::import(file, &text_of(file), &options_of(file));
     done.unwrap_or_else(|refusal| panic!("{file}: {:?}", refusal.diagnostics))
 }
 
 fn refused(text: &str) -> Refusal {
-    let done = import::import("file.xml", text, &Options::default());
+    let done = pfaff_import::import("file.xml", text, &Options::default());
     *done.err().unwrap_or_else(|| panic!("imported: {text}"))
 }
 
@@ -85,7 +85,7 @@ fn body(inner: &str) -> String {
 
 /// A text as a scene.
 fn import_text(text: &str, options: &Options) -> Imported {
-    let done = import::import("file.xml", text, options);
+    let done = pfaff_import::import("file.xml", text, options);
     done.unwrap_or_else(|refusal| panic!("{:?}", refusal.diagnostics))
 }
 

@@ -1,7 +1,7 @@
 //! Mistakes of files: names that no format knows, macros, angles in another unit, constraints that
 //! are not read, files of loops.
 
-use import::{Base, Options};
+use pfaff_import::{Base, Options};
 
 use super::{
     about_y, body, first, import_text as import, imported, numbers, options_of, read, refused,
@@ -298,7 +298,7 @@ fn a_free_base_is_one_of_urdf() {
         ..Options::default()
     };
     let text = body("<joint/><geom size='0.1'/>");
-    let refusal = import::import("file.xml", &text, &options).expect_err("refused");
+    let refusal = pfaff_import::import("file.xml", &text, &options).expect_err("refused");
     assert_eq!(first(&refusal).0, "P0608");
     let alone = arm(&[
         ("type='revolute'", "type='fixed'"),
@@ -366,7 +366,7 @@ fn a_yaml_of_loops_says_what_it_lacks() {
             loops: Some(("l.yaml".into(), yaml.into())),
             ..options_of(file)
         };
-        let refusal = import::import(file, &text_of(file), &options).expect_err("refused");
+        let refusal = pfaff_import::import(file, &text_of(file), &options).expect_err("refused");
         let (code, at, message) = first(&refusal);
         assert_eq!((code.as_str(), at), ("P0612", line), "{yaml}: {message}");
         assert!(message.contains(words), "{message}");
@@ -386,7 +386,7 @@ fn a_pose_names_a_coordinate_once() {
         pose: vec![(joint.clone(), 0.1), (joint.clone(), 0.2)],
         ..options_of(file)
     };
-    let refusal = import::import(file, &text_of(file), &options).expect_err("refused");
+    let refusal = pfaff_import::import(file, &text_of(file), &options).expect_err("refused");
     let (_, _, message) = first(&refusal);
     assert!(
         message.contains(&format!("`{joint}` is asked at 0.2")),

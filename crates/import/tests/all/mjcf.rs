@@ -1,7 +1,7 @@
 //! MJCF: what becomes of each part of a file. Accelerations are compared with MuJoCo by
 //! `tests/peers/import`.
 
-use import::{FixedLinks, Options};
+use pfaff_import::{FixedLinks, Options};
 
 use super::{first, imported, options_of, read, refused, text_of, value};
 
@@ -118,7 +118,7 @@ fn springs_dampers_and_rotors() {
 fn masses_come_from_geoms() {
     let text = "<mujoco><worldbody><body name='b'><joint/>\
         <geom type='box' size='0.1 0.2 0.05' pos='1 0 0'/></body></worldbody></mujoco>";
-    let done = import::import("box.xml", text, &Options::default()).expect("imported");
+    let done = pfaff_import::import("box.xml", text, &Options::default()).expect("imported");
     let of = |key| value(&done.scene, "body", "b", key).expect("there");
     assert!((of("mass").parse::<f64>().expect("a number") - 8.0).abs() < 1e-12);
     assert_eq!(of("centre"), "[1.0, 0.0, 0.0]");
@@ -198,7 +198,7 @@ fn keyframes_are_starts() {
     let text = text_of(file);
     let at = |name: &str| {
         let keyframe = Some(name.to_owned());
-        import::import(
+        pfaff_import::import(
             file,
             &text,
             &Options {
@@ -243,7 +243,7 @@ fn keyframes_beyond_half_a_turn() {
         keyframe,
         ..Options::default()
     };
-    let done = import::import("turns.xml", &text(""), &options).expect("imported");
+    let done = pfaff_import::import("turns.xml", &text(""), &options).expect("imported");
     let free = value(&done.scene, "force", "j spring", "free_angle").expect("a spring");
     let expected = 0.5 - std::f64::consts::TAU;
     assert!(
@@ -251,7 +251,7 @@ fn keyframes_beyond_half_a_turn() {
         "{free}"
     );
     let coupled = text("<equality><joint joint1='j' joint2='k'/></equality>");
-    let refusal = import::import("turns.xml", &coupled, &options).expect_err("refused");
+    let refusal = pfaff_import::import("turns.xml", &coupled, &options).expect_err("refused");
     assert_eq!(first(&refusal).0, "P0608");
 }
 
@@ -262,7 +262,7 @@ fn fixed_links_are_kept_on_request() {
         fixed: FixedLinks::Kept,
         ..options_of(file)
     };
-    let kept = import::import(file, &text_of(file), &options).expect("imported");
+    let kept = pfaff_import::import(file, &text_of(file), &options).expect("imported");
     assert_eq!(kept.counts, [4, 4]);
     assert_eq!(
         value(&kept.scene, "joint", "nail", "type").as_deref(),
@@ -347,7 +347,7 @@ fn nothing_is_dropped_in_silence() {
         <actuator><motor name='m'/><position name='p'/><general name='g'/>
         <general name='a' biastype='affine'/></actuator>
         <equality><flex name='off' active='false'/></equality></mujoco>";
-    let done = import::import("file.xml", text, &Options::default()).expect("imported");
+    let done = pfaff_import::import("file.xml", text, &Options::default()).expect("imported");
     for (kind, subject) in [
         ("forces of a medium or field", "density"),
         ("settings of MuJoCo's solver", "timestep"),

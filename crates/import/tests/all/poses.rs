@@ -1,7 +1,7 @@
 //! Poses that are asked for, axes that are made parallel before loops are closed, keyframes, and
 //! the names of coordinates.
 
-use import::{Axes, Options};
+use pfaff_import::{Axes, Options};
 
 use super::{about_y, body, first, import_text as import, options_of, pose, read, text_of, value};
 
@@ -126,7 +126,8 @@ fn axes_are_snapped_before_loops_are_closed() {
         done.remarks
     );
     read(&done);
-    let refusal = import::import("file.urdf", &text, &options(Axes::Told)).expect_err("refused");
+    let refusal =
+        pfaff_import::import("file.urdf", &text, &options(Axes::Told)).expect_err("refused");
     assert_eq!(first(&refusal).0, "P0613");
     let help = refusal.diagnostics[0].help.as_deref().unwrap_or_default();
     assert!(help.contains("`D`") && help.contains("--snap"), "{help}");
@@ -199,7 +200,7 @@ fn a_pose_and_a_keyframe_are_two_starts() {
         pose: pose(&[("hinge", 0.1)]),
         ..options_of(file)
     };
-    let refusal = import::import(file, &text_of(file), &options).expect_err("refused");
+    let refusal = pfaff_import::import(file, &text_of(file), &options).expect_err("refused");
     assert_eq!(first(&refusal).0, "P0605");
 }
 

@@ -1,6 +1,6 @@
 //! SDF: what becomes of each part of a file, digits, and axes that are nearly parallel.
 
-use import::{Axes, Imported, Options};
+use pfaff_import::{Axes, Imported, Options};
 
 use super::{first, imported, numbers, options_of, read, refused, text_of, value};
 
@@ -107,7 +107,7 @@ fn with_axes(file: &str, axes: Axes) -> Imported {
         axes,
         ..options_of(file)
     };
-    import::import(file, &text_of(file), &options).expect("imported")
+    pfaff_import::import(file, &text_of(file), &options).expect("imported")
 }
 
 #[test]

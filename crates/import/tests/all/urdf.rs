@@ -1,6 +1,6 @@
 //! URDF: what becomes of each part of a file, loops, and poses at which they are closed.
 
-use import::{Base, Imported, Options, Refusal};
+use pfaff_import::{Base, Imported, Options, Refusal};
 
 use super::{first, imported, numbers, options_of, read, refused, text_of, value};
 
@@ -41,7 +41,7 @@ fn with_loops(name: &str, pose: &[(&str, f64)]) -> Result<Imported, Box<Refusal>
             .collect(),
         ..options_of(&file)
     };
-    import::import(&file, &text_of(&file), &options)
+    pfaff_import::import(&file, &text_of(&file), &options)
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn the_base_is_fixed_or_free() {
         base: Base::Free,
         ..options_of(file)
     };
-    let free = import::import(file, &text_of(file), &options).expect("imported");
+    let free = pfaff_import::import(file, &text_of(file), &options).expect("imported");
     assert_eq!(free.counts, [3, 2]);
     assert!(free.remarks.iter().any(|r| r.contains("`base` is free")));
     assert!(
@@ -156,7 +156,7 @@ fn loops_that_cannot_close_are_refused() {
         loops: Some(("loops.yaml".into(), text_of("urdf/triangle.yaml"))),
         ..Options::default()
     };
-    let refusal = import::import("far.urdf", &text, &options).expect_err("refused");
+    let refusal = pfaff_import::import("far.urdf", &text, &options).expect_err("refused");
     let (code, _, message) = first(&refusal);
     assert_eq!(code, "P0613");
     assert!(
@@ -167,7 +167,7 @@ fn loops_that_cannot_close_are_refused() {
     // 1e-3.
     let far = |base: &str| {
         let text = text_of("urdf/triangle.urdf").replace("\"5 0 0\"", &format!("\"{base} 0 0\""));
-        import::import("far.urdf", &text, &options)
+        pfaff_import::import("far.urdf", &text, &options)
     };
     let rounded = far("7.0003").expect("imported");
     let told = rounded
@@ -226,7 +226,7 @@ fn faults_of_a_yaml_have_places() {
             loops: Some(("l.yaml".into(), yaml.into())),
             ..options_of(file)
         };
-        let refusal = import::import(file, &text_of(file), &options).expect_err("refused");
+        let refusal = pfaff_import::import(file, &text_of(file), &options).expect_err("refused");
         let (code, at, message) = first(&refusal);
         assert_eq!(
             (code.as_str(), at, refusal.file.as_str()),
@@ -238,7 +238,7 @@ fn faults_of_a_yaml_have_places() {
         loops: Some(("l.yaml".into(), String::new())),
         ..Options::default()
     };
-    let refusal = import::import(
+    let refusal = pfaff_import::import(
         "m.xml",
         "<mujoco><worldbody><body/></worldbody></mujoco>",
         &options,

@@ -18,7 +18,7 @@ use thiserror::Error;
 /// y' = −10⁶·(y − cos t), y(0) = 1: y(1) = cos 1 + 10⁻⁶·sin 1 + … = 0.540303147.
 ///
 /// ```
-/// use integrators::{DenseImplicit, Function, Interval, Options, Radau5, integrate};
+/// use pfaff_integrators::{DenseImplicit, Function, Interval, Options, Radau5, integrate};
 /// use std::ops::ControlFlow;
 ///
 /// let f = Function::new(1, |t: f64, y: &[f64], dy: &mut [f64]| dy[0] = -1e6 * (y[0] - t.cos()));

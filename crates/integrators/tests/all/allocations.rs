@@ -2,7 +2,7 @@
 
 use crate::problems::kepler;
 use crate::problems::{Plain, plain};
-use integrators::{Dop853, Dopri5, Interval, Method, Options, OutputTimes, Tsit5, sample};
+use pfaff_integrators::{Dop853, Dopri5, Interval, Method, Options, OutputTimes, Tsit5, sample};
 use std::ops::ControlFlow;
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::problems::arenstorf::{PERIOD, Y0, rhs};
 use crate::problems::{Plain, distance, plain, run_function};
-use integrators::{
+use pfaff_integrators::{
     Dop853, Dopri5, Function, InitialStep, Interval, Method, Options, OutputTimes, Tsit5,
     integrate, sample,
 };

@@ -1,7 +1,7 @@
 //! Kinks and jumps of f, declared and not.
 
 use crate::problems::{Plain, fixed_step, plain, run};
-use integrators::{
+use pfaff_integrators::{
     Dop853, Dopri5, Function, Interval, Method, Ode, Options, OutputTimes, Tsit5, integrate, sample,
 };
 use std::convert::Infallible;

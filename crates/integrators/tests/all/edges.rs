@@ -2,7 +2,7 @@
 //! not numbers, extreme tolerances.
 
 use crate::problems::{Plain, distance, kepler, oscillator, plain};
-use integrators::{
+use pfaff_integrators::{
     Cause, Dop853, Dopri5, Failure, IntegrationError, Interval, Method, Options, Outcome,
     Tolerance, Tsit5, integrate,
 };

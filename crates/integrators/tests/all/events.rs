@@ -1,7 +1,7 @@
 //! Event times compared with closed forms, and events that are not detected.
 
 use crate::problems::{Plain, fixed_step, plain};
-use integrators::{
+use pfaff_integrators::{
     Crossing, Crossings, Direction, Dop853, Dopri5, End, Function, IntegrationError, Interval,
     Method, Options, OutputTimes, Rows, Tsit5, integrate, integrate_until,
 };

@@ -1,7 +1,7 @@
 //! All errors: with their names and the last good state, and without panic.
 
 use crate::problems::{oscillator, run, run_function};
-use integrators::{
+use pfaff_integrators::{
     Cause, Dopri5, End, Failure, Function, InitialStep, IntegrationError, Interval, Ode, Options,
     OutputError, Tolerance, integrate,
 };

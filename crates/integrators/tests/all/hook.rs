@@ -1,7 +1,7 @@
 //! Projection at the end of steps.
 
 use crate::problems::{WEIGHT, distance, fixed_step, observed_orders};
-use integrators::{
+use pfaff_integrators::{
     Cause, Dop853, Dopri5, IntegrationError, Interval, Method, Ode, Options, Outcome, StepEnd,
     StepInfo, Tsit5, integrate,
 };

@@ -1,7 +1,7 @@
 //! A Kepler ellipse: closed orbit of known period, known energy and angular momentum.
 
 use crate::problems::{distance, kepler, run_function};
-use integrators::{Options, Outcome};
+use pfaff_integrators::{Options, Outcome};
 use std::f64::consts::TAU;
 
 /// Eccentricity 0.5, semi-major axis 1: period 2π, start at the pericentre.

@@ -3,7 +3,7 @@
 use crate::problems::{
     Plain, distance, fixed_step, kepler, modulated, observed_orders, plain, run_function,
 };
-use integrators::{Dop853, Dopri5, Interval, Method, Options, Tsit5, integrate};
+use pfaff_integrators::{Dop853, Dopri5, Interval, Method, Options, Tsit5, integrate};
 use std::ops::ControlFlow;
 
 /// Observed orders differ from the exact one by the next term of the error, some per cent at these

@@ -1,7 +1,7 @@
 //! Output times, early stops, failing output.
 
 use crate::problems::oscillator;
-use integrators::{
+use pfaff_integrators::{
     Dopri5, End, Function, InitialStep, IntegrationError, Interval, Ode, Options, OutputTimes,
     integrate, sample,
 };
@@ -183,7 +183,7 @@ impl Ode for OnlyAtStages {
 #[test]
 fn a_failing_extra_evaluation_is_named() {
     let options = Options {
-        initial_step: integrators::InitialStep::Given(1.0),
+        initial_step: pfaff_integrators::InitialStep::Given(1.0),
         ..Options::default()
     };
     let at = OutputTimes::At(vec![0.7]);

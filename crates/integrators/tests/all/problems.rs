@@ -1,6 +1,6 @@
 //! Right-hand sides and small helpers shared by the tests.
 
-use integrators::{
+use pfaff_integrators::{
     Dopri5, Function, InitialStep, Interval, Ode, Options, Outcome, Tolerance, integrate,
 };
 use std::ops::ControlFlow;

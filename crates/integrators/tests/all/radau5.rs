@@ -1,7 +1,7 @@
 //! Radau IIA on stiff problems with published or closed-form answers.
 
 use crate::problems::distance;
-use integrators::{
+use pfaff_integrators::{
     Cause, DenseError, DenseImplicit, Differences, Function, InitialStep, IntegrationError,
     Interval, Jacobian, Ode, Options, Outcome, Radau5, StepEnd, StepInfo, integrate,
 };

@@ -1,6 +1,5 @@
 //! Definitions with one wrong entry: the harness has to detect each of them and name the fault.
 
-use joint_conformance::{Failure, Property, check_constraint, check_force};
 use joints::generated::{
     DistanceLengthDrive, Fixed, KnifeEdge, PinInSlotDisplacementDrive, SpringDamper, Velocity,
 };
@@ -9,6 +8,7 @@ use joints::{
     Argument, ArgumentError, Constraint, ConstraintKernels, Definition, Element, Force,
     ForceElement, Pose, Programs, Reaction, Real, Ring, Scalar, Twist, Visitor,
 };
+use pfaff_joint_conformance::{Failure, Property, check_constraint, check_force};
 
 use crate::SEED;
 

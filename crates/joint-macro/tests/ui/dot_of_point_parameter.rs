@@ -1,4 +1,4 @@
-use joint_macro::joint;
+use pfaff_joint_macro::joint;
 
 joint! { plane Wrong(i, j) {
     /// One wrong thing.

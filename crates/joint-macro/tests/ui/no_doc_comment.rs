@@ -1,4 +1,4 @@
-use joint_macro::joint;
+use pfaff_joint_macro::joint;
 
 joint! { plane Wrong(i, j) {
     params { s_i: Point in i, s_j: Point in j }

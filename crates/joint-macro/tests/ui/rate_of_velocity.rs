@@ -1,4 +1,4 @@
-use joint_macro::force;
+use pfaff_joint_macro::force;
 
 force! { plane Wrong(i) {
     /// One wrong thing.

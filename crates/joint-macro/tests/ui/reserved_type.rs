@@ -1,4 +1,4 @@
-use joint_macro::joint;
+use pfaff_joint_macro::joint;
 
 joint! { plane Direction(i, j) {
     /// One wrong thing.

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::PathBuf;
 
-use joints::space3::{self, Axes};
-use joints::spec::{Shape, Spec};
-use joints::{Argument, Plane, Pose, Space, Space3};
+use pfaff_joints::space3::{self, Axes};
+use pfaff_joints::spec::{Shape, Spec};
+use pfaff_joints::{Argument, Plane, Pose, Space, Space3};
 use serde::Deserialize;
 
 /// One pose with the numbers computed for it.
@@ -141,16 +141,19 @@ impl Golden {
             let known = spec.parameters.iter().any(|p| p.name == name);
             assert!(known, "`{}` has no parameter `{name}`", spec.name);
         }
-        let argument = |p: &joints::spec::Parameter| match (self.parameters.get(p.name), p.shape) {
-            (None, _) => Argument::Absent,
-            (Some(Value::Many(v)), Shape::Point { .. } | Shape::Direction { .. }) => S::vector(v),
-            (Some(Value::Two([a, b])), Shape::GroundPlane) => {
-                Argument::Triples([a, b].map(|v| [0, 1, 2].map(|k| v[k])))
-            }
-            (Some(Value::Two(two)), _) => S::two(two),
-            (Some(Value::One(n)), _) => Argument::Numbers(vec![*n]),
-            (Some(Value::Many(v)), _) => Argument::Numbers(v.clone()),
-        };
+        let argument =
+            |p: &pfaff_joints::spec::Parameter| match (self.parameters.get(p.name), p.shape) {
+                (None, _) => Argument::Absent,
+                (Some(Value::Many(v)), Shape::Point { .. } | Shape::Direction { .. }) => {
+                    S::vector(v)
+                }
+                (Some(Value::Two([a, b])), Shape::GroundPlane) => {
+                    Argument::Triples([a, b].map(|v| [0, 1, 2].map(|k| v[k])))
+                }
+                (Some(Value::Two(two)), _) => S::two(two),
+                (Some(Value::One(n)), _) => Argument::Numbers(vec![*n]),
+                (Some(Value::Many(v)), _) => Argument::Numbers(v.clone()),
+            };
         spec.parameters.iter().map(argument).collect()
     }
 

@@ -28,7 +28,7 @@ impl Dd {
     /// above 10¹⁵ it is that of `f64`. NaN if the argument is not finite.
     ///
     /// ```
-    /// use linalg::Dd;
+    /// use pfaff_linalg::Dd;
     /// // 3-4-5: the angle cannot be represented exactly, but cosine and sine are on the circle to rounding.
     /// let (s, c) = Dd::from(0.6f64.acos()).sin_cos();
     /// assert!((s * s + c * c - Dd::ONE).abs() < Dd::from(1e-31));

@@ -97,7 +97,7 @@ impl PivotedQr {
     /// `C⁺ = Q·R⁻ᵀ·Pᵀ`, so that `C⁺·b` is the smallest solution of `C·x = b`. Row i is `C⁺·e_i`.
     ///
     /// ```
-    /// use linalg::{Matrix, PivotedQr};
+    /// use pfaff_linalg::{Matrix, PivotedQr};
     /// let qr = PivotedQr::of_rows(Matrix::from_rows(&[[3.0, 4.0]]));
     /// let inverse = qr.transposed_pseudo_inverse();
     /// assert!((inverse[(0, 0)] - 0.12).abs() < 1e-16 && (inverse[(0, 1)] - 0.16).abs() < 1e-16);

@@ -8,7 +8,7 @@ use crate::Matrix;
 /// `C_D = T·C_K + S` with the rows of S orthogonal to those of `C_K`.
 ///
 /// ```
-/// use linalg::{Matrix, RowBasis};
+/// use pfaff_linalg::{Matrix, RowBasis};
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [3.0, 0.0], [4.0, 5.0]]);
 /// let basis = RowBasis::most_independent(c, 2);
 /// assert_eq!((basis.kept(), basis.dropped()), (&[1, 2][..], &[0][..]));

@@ -52,14 +52,14 @@ impl KeptRowSaddle {
     /// multiplier of a skipped row is zero, and its equation does not hold.
     ///
     /// ```
-    /// use linalg::KeptRowSaddle;
+    /// use pfaff_linalg::KeptRowSaddle;
     /// let rows = [[1.0, 0.0], [1.0, 1e-9]];
     /// let mut saddle = KeptRowSaddle::new(2, 2)?;
     /// saddle.factor_above(1e-6, |k| &rows[k], &[1.0, 1.0])?;
     /// let (mut a, mut lambda) = ([0.0; 2], [0.0; 2]);
     /// saddle.solve(&[3.0, 5.0], &[2.0, 7.0], &mut a, &mut lambda)?;
     /// assert_eq!((a, lambda, saddle.n_left_out()), ([2.0, 5.0], [1.0, 0.0], 1));
-    /// # Ok::<(), linalg::SaddleError>(())
+    /// # Ok::<(), pfaff_linalg::SaddleError>(())
     /// ```
     ///
     /// # Errors

@@ -27,8 +27,8 @@ impl KeptRowSaddle {
     /// With `P·Cᵀ = L·U` and the null space basis N it is `sign(P)·Π u_jj·det(Nᵀ·B)`.
     ///
     /// ```
-    /// use linalg::KeptRowSaddle;
-    /// let determinant = |angle: f64| -> Result<f64, linalg::SaddleError> {
+    /// use pfaff_linalg::KeptRowSaddle;
+    /// let determinant = |angle: f64| -> Result<f64, pfaff_linalg::SaddleError> {
     /// // The row rotates; the frame stays the x-axis. They are parallel at angle 0.
     ///     let c = [angle.cos(), angle.sin()];
     ///     let mut saddle = KeptRowSaddle::new(2, 1)?;
@@ -37,7 +37,7 @@ impl KeptRowSaddle {
     /// };
     /// assert!((determinant(0.1)? + 0.1_f64.sin()).abs() < 1e-15);
     /// assert!((determinant(-0.2)? - 0.2_f64.sin()).abs() < 1e-15);
-    /// # Ok::<(), linalg::SaddleError>(())
+    /// # Ok::<(), pfaff_linalg::SaddleError>(())
     /// ```
     ///
     /// # Panics

@@ -49,7 +49,7 @@ impl KeptRowSaddle {
     /// ones. Needs no masses; does not allocate.
     ///
     /// ```
-    /// use linalg::KeptRowSaddle;
+    /// use pfaff_linalg::KeptRowSaddle;
     /// // The row x + 2·y = 8, solved for y.
     /// let c = [1.0, 2.0];
     /// let mut saddle = KeptRowSaddle::new(2, 1)?;
@@ -58,7 +58,7 @@ impl KeptRowSaddle {
     /// let mut x = [2.0, 0.0];
     /// saddle.complete(&[8.0], &mut x)?;
     /// assert_eq!(x, [2.0, 3.0]);
-    /// # Ok::<(), linalg::SaddleError>(())
+    /// # Ok::<(), pfaff_linalg::SaddleError>(())
     /// ```
     ///
     /// # Errors

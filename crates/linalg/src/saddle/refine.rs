@@ -108,7 +108,7 @@ impl KeptRowSaddle {
     /// | others | | as for [`KeptRowSaddle::solve`] |
     ///
     /// ```
-    /// use linalg::{KeptRowSaddle, Refinement};
+    /// use pfaff_linalg::{KeptRowSaddle, Refinement};
     /// // Two carts tied together, 3 kg and 3e12 kg, with 6 N on the light one, almost all of which acts through the tie.
     /// let c = [1.0, -1.0];
     /// let mut saddle = KeptRowSaddle::new(2, 1)?;
@@ -117,7 +117,7 @@ impl KeptRowSaddle {
     /// saddle.solve_refined(&mut Refinement::new(2, 1), |_| &c, &[6.0, 0.0], &[0.0], &mut a, &mut lambda)?;
     /// assert_eq!(a, [6.0 / 3_000_000_000_003.0; 2]);
     /// assert_eq!(lambda, [18e12 / 3_000_000_000_003.0]);
-    /// # Ok::<(), linalg::SaddleError>(())
+    /// # Ok::<(), pfaff_linalg::SaddleError>(())
     /// ```
     ///
     /// # Errors

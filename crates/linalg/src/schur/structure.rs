@@ -17,7 +17,7 @@ use crate::{EliminationTree, SparseMatrix};
 /// The pattern of `S = C·M⁻¹·Cᵀ` and of its factor.
 ///
 /// ```
-/// use linalg::{SchurStructure, SparseMatrix};
+/// use pfaff_linalg::{SchurStructure, SparseMatrix};
 /// // A chain of three rows over four columns: each is a block, and L has no more entries than S.
 /// let row = |k: usize| [(k, 1.0), (k + 1, -1.0)];
 /// let c = SparseMatrix::from_rows(4, (0..3).map(row))?;

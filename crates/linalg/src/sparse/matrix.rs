@@ -9,12 +9,12 @@ mod tests;
 /// `column[start[i]..start[i + 1]]`, ascending, each once.
 ///
 /// ```
-/// use linalg::SparseMatrix;
+/// use pfaff_linalg::SparseMatrix;
 /// let c = SparseMatrix::from_rows(3, [vec![(2, 1.0), (0, 5.0)], vec![], vec![(1, 2.0), (1, 3.0)]])?;
 /// assert_eq!((c.nrows(), c.ncols(), c.nnz()), (3, 3, 3));
 /// assert_eq!(c.row(0), (&[0, 2][..], &[5.0, 1.0][..]));
 /// assert_eq!(c.row(2), (&[1][..], &[5.0][..])); // 2 + 3
-/// # Ok::<(), linalg::SparseError>(())
+/// # Ok::<(), pfaff_linalg::SparseError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct SparseMatrix {

@@ -23,7 +23,7 @@ use buckets::Buckets;
 /// ignored. The same input gives the same order.
 ///
 /// ```
-/// use linalg::minimum_degree;
+/// use pfaff_linalg::minimum_degree;
 /// // A star: the centre 0 comes after all but one of its neighbours, so there is no fill.
 /// let order = minimum_degree(4, &[vec![0, 1], vec![0, 2], vec![0, 3]]);
 /// assert!(order.iter().position(|&node| node == 0) >= Some(2));

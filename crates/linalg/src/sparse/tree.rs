@@ -7,7 +7,7 @@ use super::minimum_degree;
 /// created by their elimination. Nodes are referred to by their *place* in this order.
 ///
 /// ```
-/// use linalg::EliminationTree;
+/// use pfaff_linalg::EliminationTree;
 /// // A chain 0 – 1 – 2 of two cliques: no order creates fill.
 /// let tree = EliminationTree::new(3, &[vec![0, 1], vec![1, 2]]);
 /// let joined: Vec<usize> = tree.beyond.iter().map(Vec::len).collect();

@@ -11,7 +11,7 @@ impl DataBlock {
     ///
     /// ```
     /// use joints::Revolute;
-    /// use model::{Body, BodyRef, Description, Mechanism, System};
+    /// use pfaff_model::{Body, BodyRef, Description, Mechanism, System};
     /// let mut d = Description::new("pendulum");
     /// let bob = d.body(Body::new("bob", 1.0, 1.0));
     /// d.joint("pin", &[BodyRef::Ground, bob], Revolute { s_i: [0.0; 2], s_j: [0.0, 2.0] });

@@ -94,10 +94,10 @@ impl Function {
     /// if there are not as many, or a function of this kind cannot have them.
     ///
     /// ```
-    /// let f = model::Function::harmonic(2.0, 3.0, 0.1, 0.5).unwrap();
+    /// let f = pfaff_model::Function::harmonic(2.0, 3.0, 0.1, 0.5).unwrap();
     /// let mut numbers = f.parts().numbers();
     /// numbers[0] = 4.0;
-    /// assert_eq!(f.with_numbers(&numbers), model::Function::harmonic(4.0, 3.0, 0.1, 0.5).ok());
+    /// assert_eq!(f.with_numbers(&numbers), pfaff_model::Function::harmonic(4.0, 3.0, 0.1, 0.5).ok());
     /// assert_eq!(f.with_numbers(&[1.0]), None);
     /// ```
     #[must_use]
@@ -135,7 +135,7 @@ impl Function {
     /// The kind of the function, with its numbers.
     ///
     /// ```
-    /// use model::{Function, function::Parts};
+    /// use pfaff_model::{Function, function::Parts};
     /// let f = Function::constant_rate(3.0).unwrap();
     /// assert_eq!(f.parts(), Parts::Polynomial(&[0.0, 3.0]));
     /// ```

@@ -138,7 +138,7 @@ impl Derivatives {
     ///
     /// ```
     /// use joints::Revolute;
-    /// use model::{Body, BodyRef, Derivatives, Description, Joint, Mechanism, System};
+    /// use pfaff_model::{Body, BodyRef, Derivatives, Description, Joint, Mechanism, System};
     /// // A pendulum of length 2: Γ_y = −R_j·s_j·φ̇² = −2·φ̇², so ∂Γ_y/∂φ̇ = −4·φ̇.
     /// let bob = Body { name: "bob".into(), mass: 1.0, inertia: 0.1, ..Body::default() };
     /// let pivot = Revolute { s_i: [0.0, 0.0], s_j: [0.0, 2.0] };
@@ -155,7 +155,7 @@ impl Derivatives {
     /// let mut gamma = [0.0; 2];
     /// d.gamma_dv.add_product(&[0.0, 0.0, 1.0], &mut gamma);
     /// assert_eq!(gamma, [0.0, -12.0]);
-    /// # Ok::<(), model::CalledForce>(())
+    /// # Ok::<(), pfaff_model::CalledForce>(())
     /// ```
     ///
     /// # Panics

@@ -15,7 +15,7 @@ impl Mechanism {
     ///
     /// ```
     /// use joints::Revolute;
-    /// use model::{Body, BodyRef, ConstraintId, Description, Joint, Mechanism};
+    /// use pfaff_model::{Body, BodyRef, ConstraintId, Description, Joint, Mechanism};
     /// let pin = Revolute { s_i: [0.0, 0.0], s_j: [0.0, 2.0] };
     /// let d = Description {
     ///     bodies: vec![Body { name: "bob".into(), mass: 1.0, inertia: 1.0, ..Body::default() }],
@@ -45,7 +45,7 @@ impl Mechanism {
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
-    /// use model::{Body, BodyRef, ConstraintId, Description, Function, Mechanism};
+    /// use pfaff_model::{Body, BodyRef, ConstraintId, Description, Function, Mechanism};
     /// let mut d = Description::new("crank");
     /// let crank = d.body(Body::new("crank", 1.0, 1.0));
     /// let (bodies, s) = ([BodyRef::Ground, crank], [0.0, 0.0]);

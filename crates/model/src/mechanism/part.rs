@@ -39,7 +39,7 @@ impl Mechanism {
     ///
     /// ```
     /// use joints::Revolute;
-    /// use model::{Body, BodyRef, Description, Joint, Mechanism};
+    /// use pfaff_model::{Body, BodyRef, Description, Joint, Mechanism};
     /// // Two pendulums on the same ground, the first of two bodies.
     /// let body = |name: &str| Body { name: name.into(), mass: 1.0, inertia: 1.0, ..Body::default() };
     /// let pin = |name: &str, i, j| Joint::new(name, &[i, j], Revolute { s_i: [0.0; 2], s_j: [0.0; 2] });
@@ -67,7 +67,7 @@ impl Mechanism {
     ///
     /// ```
     /// use joints::{Revolute, TorsionSpringDamper};
-    /// use model::{Body, BodyRef, Description, Mechanism};
+    /// use pfaff_model::{Body, BodyRef, Description, Mechanism};
     /// let mut d = Description::new("two pendulums on a spring");
     /// let [a, b] = ["a", "b"].map(|name| d.body(Body::new(name, 1.0, 1.0)));
     /// for body in [a, b] {

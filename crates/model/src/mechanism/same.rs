@@ -11,7 +11,7 @@ impl Mechanism {
     /// weights may differ. `false` also where that is not known: for angles that count their turns.
     ///
     /// ```
-    /// use model::{Body, Description, Mechanism};
+    /// use pfaff_model::{Body, Description, Mechanism};
     /// let built = |mass: f64, gravity: f64| {
     ///     let mut d = Description { gravity: [0.0, -gravity], ..Description::new("stone") };
     ///     d.body(Body::new("stone", mass, 1.0));

@@ -30,7 +30,7 @@ impl Work {
     ///
     /// ```
     /// use joints::{Direction, Translational};
-    /// use model::{Body, BodyRef, Description, Joint, Mechanism, Work};
+    /// use pfaff_model::{Body, BodyRef, Description, Joint, Mechanism, Work};
     /// // A slider on the ground along x does not rotate, because of its row `angle`.
     /// let guide = Translational::new([0.0; 2], [0.0; 2], Direction::X);
     /// let d = Description {

@@ -35,7 +35,7 @@ impl RecordedEquations {
     /// functions of time. It is the same on every machine and in every build of one version.
     ///
     /// ```
-    /// use model::{Body, Description, Mechanism, RecordedEquations};
+    /// use pfaff_model::{Body, Description, Mechanism, RecordedEquations};
     /// let recorded = |bodies: &[Body]| {
     ///     let d = Description { bodies: bodies.to_vec(), ..Description::default() };
     ///     RecordedEquations::of(&Mechanism::build(&d).unwrap())

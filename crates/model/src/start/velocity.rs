@@ -58,8 +58,8 @@ const CANCELLED: f64 = 1e-12;
 ///
 /// ```
 /// use joints::Revolute;
-/// use model::start::{StartOptions, assemble, consistent_velocity};
-/// use model::{Body, BodyRef, Description, Mechanism, System};
+/// use pfaff_model::start::{StartOptions, assemble, consistent_velocity};
+/// use pfaff_model::{Body, BodyRef, Description, Mechanism, System};
 ///
 /// // A bob 2 m below its pivot, rotating with 3 rad/s: its centre moves with 6 m/s.
 /// let mut d = Description::new("pendulum");
@@ -71,7 +71,7 @@ const CANCELLED: f64 = 1e-12;
 /// let given = mechanism.frames().given_velocities(&q);
 /// let found = consistent_velocity(&mechanism, &options, &q, &given, &[0, 1])?;
 /// assert_eq!((found.v, found.correction), (vec![6.0, 0.0, 3.0], vec![0.0; 3]));
-/// # Ok::<(), model::StartError>(())
+/// # Ok::<(), pfaff_model::StartError>(())
 /// ```
 ///
 /// # Errors

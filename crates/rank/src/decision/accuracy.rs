@@ -8,7 +8,7 @@ use linalg::{Matrix, Scaling, equilibrate};
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::{Accuracy, decide};
+/// use pfaff_rank::{Accuracy, decide};
 /// // Two rows that differ in the last bit.
 /// let c = Matrix::from_rows(&[[1.0, 1.0], [1.0, 1.0 + f64::EPSILON]]);
 /// assert_eq!(decide(&c, Accuracy::Rounding)?.rank, 1);
@@ -17,7 +17,7 @@ use linalg::{Matrix, Scaling, equilibrate};
 /// let c = Matrix::from_rows(&[[6e-17, 1.0], [-1e-17, 1.0]]);
 /// assert_eq!(decide(&c, Accuracy::Rounding)?.rank, 2); // small entries are significant
 /// assert_eq!(decide(&c, &Matrix::from_rows(&[[2e-16; 2]; 2]))?.rank, 1);
-/// # Ok::<(), rank::RankError>(())
+/// # Ok::<(), pfaff_rank::RankError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Accuracy<'a> {

@@ -13,14 +13,14 @@ use linalg::Matrix;
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::{Accuracy, RankStatus, decide};
+/// use pfaff_rank::{Accuracy, RankStatus, decide};
 /// // The third constraint is the sum of the other two.
 /// let c = Matrix::from_rows(&[[1.0, 0.0, 2.0], [0.0, 1.0, 0.0], [1.0, 1.0, 2.0]]);
 /// let decision = decide(&c, Accuracy::Rounding)?;
 /// assert_eq!((decision.rank, decision.redundancy), (2, 1));
 /// assert_eq!(decision.status, RankStatus::Decided);
 /// assert!(decision.evidence.gap > 1e15);
-/// # Ok::<(), rank::RankError>(())
+/// # Ok::<(), pfaff_rank::RankError>(())
 /// ```
 ///
 /// # Errors

@@ -22,7 +22,7 @@ use linalg::{Dd, DdMatrix, Matrix, equilibrate, kernels};
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::{Grounds, certify_exact};
+/// use pfaff_rank::{Grounds, certify_exact};
 /// // Row 2 differs from the sum of the others by the last bit of one entry …
 /// let mut c = Matrix::from_rows(&[[1.0, 0.0, 2.0], [0.0, 1.0, 0.0], [1.0, 1.0, 2.0 + 4.0 * f64::EPSILON]]);
 /// let decision = certify_exact(&c)?;
@@ -33,7 +33,7 @@ use linalg::{Dd, DdMatrix, Matrix, equilibrate, kernels};
 /// let decision = certify_exact(&c)?;
 /// assert_eq!(decision.rank, 2);
 /// assert_eq!(decision.evidence.certificate.map(|c| c.grounds), Some(Grounds::Exact));
-/// # Ok::<(), rank::RankError>(())
+/// # Ok::<(), pfaff_rank::RankError>(())
 /// ```
 ///
 /// # Errors

@@ -60,12 +60,12 @@ pub enum KeptRowsError {
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::{KeptRowsError, decide_dropping};
+/// use pfaff_rank::{KeptRowsError, decide_dropping};
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [0.0, 3.0]]);
-/// let decision = decide_dropping(&c, rank::Accuracy::Rounding, &[1])?;
+/// let decision = decide_dropping(&c, pfaff_rank::Accuracy::Rounding, &[1])?;
 /// assert_eq!(decision.kept, [0, 2]);
 /// // Row 0 is in no dependency.
-/// let refused = decide_dropping(&c, rank::Accuracy::Rounding, &[0]).unwrap_err();
+/// let refused = decide_dropping(&c, pfaff_rank::Accuracy::Rounding, &[0]).unwrap_err();
 /// assert!(matches!(refused, KeptRowsError::Dependent { .. }));
 /// # Ok::<(), KeptRowsError>(())
 /// ```
@@ -105,9 +105,9 @@ pub fn dropping_of_rank<'a>(
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::{decide, with_dropped};
+/// use pfaff_rank::{decide, with_dropped};
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [0.0, 3.0]]);
-/// let decision = decide(&c, rank::Accuracy::Rounding)?;
+/// let decision = decide(&c, pfaff_rank::Accuracy::Rounding)?;
 /// let other = with_dropped(&decision, &c, &[1])?;
 /// assert_eq!((other.rank, other.kept), (2, vec![0, 2]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -380,13 +380,13 @@ impl MixedRadix {
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::ExactNullSpace;
+/// use pfaff_rank::ExactNullSpace;
 /// // Row 2 is row 0 plus 1e-300 times row 1.
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [1.0, 1e-300]]);
 /// let z = ExactNullSpace::new(&c)?;
 /// assert!(!z.annihilates([(1, 1.0)])); // row 1 takes part
 /// assert!(z.annihilates([(0, 1.0), (2, 1.0)])); // λ₀ + λ₂ is the force along the first column
-/// # Ok::<(), rank::RankError>(())
+/// # Ok::<(), pfaff_rank::RankError>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct ExactNullSpace {

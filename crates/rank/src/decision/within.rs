@@ -33,11 +33,11 @@ use linalg::{Dd, DdMatrix, Scaling};
 ///
 /// ```
 /// use linalg::{Dd, DdMatrix, Matrix};
-/// use rank::{Grounds, certify_within};
+/// use pfaff_rank::{Grounds, certify_within};
 /// let grounds = |misalignment: f64| {
 ///     let mut c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 1.0, 0.0], [1.0, 1.0, 0.0]]));
 ///     c[(1, 0)] += Dd::from(misalignment);
-///     let decision = certify_within(&c, rank::Accuracy::Absolute(2e-16)).unwrap();
+///     let decision = certify_within(&c, pfaff_rank::Accuracy::Absolute(2e-16)).unwrap();
 ///     (decision.rank, decision.evidence.certificate.unwrap().grounds)
 /// };
 /// assert_eq!(grounds(0.0), (1, Grounds::Vanishes));

@@ -50,15 +50,15 @@ pub struct Substitutes {
 ///
 /// ```
 /// use linalg::Matrix;
-/// use rank::{Limits, decide, making_unique};
+/// use pfaff_rank::{Limits, decide, making_unique};
 /// // Three times the same row, and an independent one: to make λ₀ unique, delete both others.
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0]]);
-/// let decision = decide(&c, rank::Accuracy::Rounding)?;
+/// let decision = decide(&c, pfaff_rank::Accuracy::Rounding)?;
 /// let target = Matrix::from_rows(&[[1.0, 0.0, 0.0, 0.0]]);
 /// let rows = [vec![0], vec![1], vec![2], vec![3]];
 /// let found = making_unique(&decision, &target, &rows, |_| true, Limits::default()).unwrap();
 /// assert_eq!(found.sets, [[1, 2]]);
-/// # Ok::<(), rank::RankError>(())
+/// # Ok::<(), pfaff_rank::RankError>(())
 /// ```
 ///
 /// # Errors

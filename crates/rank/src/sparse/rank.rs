@@ -132,7 +132,7 @@ pub enum SparseRankError {
 ///
 /// ```
 /// use linalg::SparseMatrix;
-/// use rank::{Sketch, decide_sparse};
+/// use pfaff_rank::{Sketch, decide_sparse};
 /// // Rows 0 and 2 are equal up to a factor; both act on the first body.
 /// let c = SparseMatrix::from_rows(2, [vec![(0, 1.0)], vec![(0, 1.0), (1, 1.0)], vec![(0, 3.0)]])?;
 /// let found = decide_sparse(&c, 0.0, &[0..1, 1..2], Sketch::default())?;

@@ -13,7 +13,7 @@ use linalg::DisjointSets;
 /// analysed separately, and the redundancy is the sum of theirs.
 ///
 /// ```
-/// use rank::cycles;
+/// use pfaff_rank::cycles;
 /// // Vertices 0, 1, 2 form a triangle; 3 is connected to 2, and twice to 4.
 /// let groups = [vec![0, 1], vec![1, 2], vec![2, 3], vec![2, 0], vec![3, 4], vec![4, 3]];
 /// assert_eq!(cycles(5, &groups), [vec![0, 1, 3], vec![2], vec![4, 5]]);

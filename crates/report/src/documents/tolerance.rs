@@ -435,7 +435,7 @@ impl ToleranceDocument {
 /// A distance with at most three significant digits, in the unit that people say.
 ///
 /// ```
-/// use report::documents::distance;
+/// use pfaff_report::documents::distance;
 /// assert_eq!([0.0, 1e-4, 2.346e-3, 1e-7, 2.0].map(distance), ["0 mm", "0.1 mm", "2.35 mm", "0.1 µm", "2 m"]);
 /// ```
 #[must_use]
@@ -468,7 +468,7 @@ impl RangeDocument {
     /// finite are left out; `None` if no value is left.
     ///
     /// ```
-    /// use report::documents::RangeDocument;
+    /// use pfaff_report::documents::RangeDocument;
     /// let range = RangeDocument::of([1.0, 2.0, f64::NAN, 6.0], Some(2.5)).unwrap();
     /// assert_eq!((range.samples, range.least, range.greatest, range.mean), (3, 1.0, 6.0, 3.0));
     /// assert!(RangeDocument::of([f64::NAN], None).is_none());

@@ -61,7 +61,7 @@ const BELOW: f64 = 40.0;
 /// One quantity over time.
 ///
 /// ```
-/// use report::figures::{Series, Style, history};
+/// use pfaff_report::figures::{Series, Style, history};
 /// let t = [0.0, 1.0, 2.0];
 /// let y = [0.0, f64::NAN, 4.0]; // a gap in the middle
 /// let series = Series { label: "run 1", t: &t, y: &y, style: Style::nth(0) };

@@ -15,10 +15,10 @@ use crate::scene::Scene;
 /// ```
 /// use model::FramePose;
 /// let text = "[scene]\nname = \"drop\"\nspace = \"plane\"\n[[body]]\nname = \"bob\" # heavy\nmass = 1\ninertia = 1\n";
-/// let scene = scene::read("drop.toml", text, &model::Registry::standard()).unwrap();
-/// let there = scene::at_rest(&scene, &[FramePose::Plane { position: [0.5, 2.0], angle: 0.25 }])?;
+/// let scene = pfaff_scene::read("drop.toml", text, &model::Registry::standard()).unwrap();
+/// let there = pfaff_scene::at_rest(&scene, &[FramePose::Plane { position: [0.5, 2.0], angle: 0.25 }])?;
 /// assert!(there.contains("[[body]]\nstart = { position = [0.5, 2], angle = 0.25 }\nname = \"bob\" # heavy"));
-/// # Ok::<(), scene::KeyError>(())
+/// # Ok::<(), pfaff_scene::KeyError>(())
 /// ```
 ///
 /// # Errors

@@ -1,6 +1,6 @@
 //! The texts and places of diagnostics: one fault per case, and one file with many.
 
-use scene::Diagnostic;
+use pfaff_scene::Diagnostic;
 
 use crate::read;
 

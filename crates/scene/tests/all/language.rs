@@ -4,8 +4,8 @@ use std::f64::consts::FRAC_PI_6;
 
 use joints::{Pose, Twist};
 use model::BodyRef;
+use pfaff_scene::{Diagnostic, Scene};
 use proptest::prelude::*;
-use scene::{Diagnostic, Scene};
 
 use super::read;
 

@@ -3,7 +3,7 @@
 use dynamics::{DropError, MotionError, MotionFault, RowChoice, prepare};
 use model::start::Misfit;
 use model::{BuildError, Mechanism, StartError};
-use scene::{Label, Scene};
+use pfaff_scene::{Label, Scene};
 
 use crate::{BODIES, read, read_more};
 

@@ -18,7 +18,7 @@ mod validator;
 mod words;
 
 use model::Registry;
-use scene::{Diagnostic, Scene};
+use pfaff_scene::{Diagnostic, Scene};
 
 /// The mechanism of the published paper.
 const ROBOT: &str = include_str!("../../../robot-trolley/robot-trolley.toml");
@@ -50,7 +50,7 @@ inertia = 1.0
 
 /// Reads a text with the joints and forces of the library.
 fn read(text: &str) -> Result<Scene, Vec<Diagnostic>> {
-    scene::read("x.toml", text, &Registry::standard())
+    pfaff_scene::read("x.toml", text, &Registry::standard())
 }
 
 /// Reads the three bodies and further text.

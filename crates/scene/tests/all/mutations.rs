@@ -107,7 +107,7 @@ fn mutate(text: &str, by_line: bool, at: usize, mutation: &Mutation) -> String {
 
 fn check(text: &str) {
     let registry = Registry::standard();
-    match scene::read("mutated.toml", text, &registry) {
+    match pfaff_scene::read("mutated.toml", text, &registry) {
         Ok(scene) => assert!(Mechanism::build(&scene.description).is_ok()),
         Err(problems) => {
             assert!(!problems.is_empty());

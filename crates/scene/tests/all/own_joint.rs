@@ -26,7 +26,7 @@ fn a_registered_joint_has_its_keys_and_measures() {
     );
     let mut registry = Registry::standard();
     registry.add_constraint::<PinOnParabola>();
-    let d = scene::read("own.toml", &text, &registry)
+    let d = pfaff_scene::read("own.toml", &text, &registry)
         .unwrap_or_else(|problems| panic!("{problems:#?}"))
         .description
         .plane()

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use scene::Severity;
+use pfaff_scene::Severity;
 
 use super::read;
 

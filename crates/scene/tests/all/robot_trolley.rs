@@ -2,7 +2,7 @@
 
 use dynamics::{MotionOptions, RowChoice};
 use model::{Mechanism, StartOptions, System};
-use scene::{Combination, Output};
+use pfaff_scene::{Combination, Output};
 
 use crate::{ROBOT, read};
 
@@ -115,15 +115,16 @@ combine = "W3.N + 2*W4.N - steering.drive"
         scene.output,
         Output {
             trajectory: false,
-            reactions: scene::WantedReactions::Of(vec!["steering".into(), "W3".into()]),
+            reactions: pfaff_scene::WantedReactions::Of(vec!["steering".into(), "W3".into()]),
             report: false,
         }
     );
     assert_eq!(
         scene.groups[0].content,
-        scene::GroupContent::Members(vec!["W3".into(), "W4".into()])
+        pfaff_scene::GroupContent::Members(vec!["W3".into(), "W4".into()])
     );
-    let scene::GroupContent::Combination(Combination::Components(sum)) = &scene.groups[1].content
+    let pfaff_scene::GroupContent::Combination(Combination::Components(sum)) =
+        &scene.groups[1].content
     else {
         panic!("{:?}", scene.groups[1]);
     };

@@ -12,7 +12,7 @@ use super::validator::fault;
 use super::{BODIES, read};
 
 fn schema() -> Value {
-    scene::schema(&Registry::standard())
+    pfaff_scene::schema(&Registry::standard())
 }
 
 fn json_of(text: &str) -> Value {

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use model::Registry;
-use scene::ELSEWHERE;
+use pfaff_scene::ELSEWHERE;
 
 const PAGE: &str = include_str!("../../../../docs/book/words.md");
 
@@ -31,7 +31,7 @@ fn the_book_lists_the_words_that_hints_know() {
 
 #[test]
 fn each_word_leads_to_something_that_is_there() {
-    let schema = scene::schema(&Registry::standard()).to_string();
+    let schema = pfaff_scene::schema(&Registry::standard()).to_string();
     for (word, here) in ELSEWHERE {
         let is_option = here.starts_with("--");
         assert!(

@@ -8,7 +8,7 @@ use super::{Label, NamedChoice};
 /// who says that they are chosen.
 ///
 /// ```
-/// use solvability::Chosen;
+/// use pfaff_solvability::Chosen;
 /// let lambda = Chosen::new(vec![3.0, 0.0], vec![1]);
 /// assert_eq!(lambda.dropped(), [1]);
 /// assert_eq!(lambda.as_chosen(), [3.0, 0.0]);

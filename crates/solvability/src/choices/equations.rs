@@ -23,7 +23,7 @@ use crate::sparse::{blocks, rows_of};
 /// ```
 /// use linalg::{Matrix};
 /// use rank::{decide};
-/// use solvability::{Equations, RowTerms};
+/// use pfaff_solvability::{Equations, RowTerms};
 /// // Two equal rows hold a unit mass against a force of 3.
 /// let c = Matrix::from_rows(&[[1.0], [1.0]]);
 /// let equations = Equations {

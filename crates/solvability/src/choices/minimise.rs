@@ -15,7 +15,7 @@ use crate::matrices::Solvability;
 ///
 /// ```
 /// use linalg::Matrix;
-/// use solvability::{LinearForm, Solvability, minimise};
+/// use pfaff_solvability::{LinearForm, Solvability, minimise};
 /// // Three equal springs side by side under a load of 6, then the first one half as stiff.
 /// let c = Matrix::from_rows(&[[1.0], [1.0], [1.0]]);
 /// let s = Solvability::of(&c, rank::Accuracy::Rounding)?;

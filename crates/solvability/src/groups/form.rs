@@ -15,7 +15,7 @@ use crate::verdict::Judgement;
 ///
 /// ```
 /// use linalg::Matrix;
-/// use solvability::{LinearForm, Solvability, Verdict};
+/// use pfaff_solvability::{LinearForm, Solvability, Verdict};
 /// // Rows 0 and 1 are the same: only the sum of their multipliers is determined.
 /// let c = Matrix::from_rows(&[[0.1, 0.0], [0.1, 0.0], [0.0, 1.0]]);
 /// let s = Solvability::of(&c, rank::Accuracy::Rounding)?;

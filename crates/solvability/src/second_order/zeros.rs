@@ -42,7 +42,7 @@ pub enum CommonZero {
 ///
 /// ```
 /// use linalg::Matrix;
-/// use solvability::{CommonZero, common_zero};
+/// use pfaff_solvability::{CommonZero, common_zero};
 /// let form = |a: f64, b: f64, c: f64| Matrix::from_rows(&[[a, b], [b, c]]);
 /// // x² − y² and x·y: no combination is definite, and there is no common zero.
 /// let forms = [form(1.0, 0.0, -1.0), form(0.0, 0.5, 0.0)];

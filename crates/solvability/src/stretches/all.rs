@@ -82,7 +82,7 @@ impl Stretches {
     /// ```
     /// # use joints::Revolute;
     /// # use model::{Body, BodyRef, Description, Joint, Mechanism};
-    /// # use solvability::Stretches;
+    /// # use pfaff_solvability::Stretches;
     /// # let pin = Revolute { s_i: [0.0; 2], s_j: [0.0, 1.0] };
     /// # let pendulum = Description {
     /// #     bodies: vec![Body { name: "bob".into(), mass: 1.0, inertia: 1.0, ..Body::default() }],

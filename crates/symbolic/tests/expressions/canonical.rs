@@ -1,7 +1,7 @@
 //! Canonical form: it does not depend on the order of construction.
 
+use pfaff_symbolic::{Expr, Function, Graph, Node, Printer, Program, Scalar};
 use proptest::prelude::*;
-use symbolic::{Expr, Function, Graph, Node, Printer, Program, Scalar};
 
 use crate::tree::{INPUTS, Order, graph, trees};
 use crate::{config, interpreter};

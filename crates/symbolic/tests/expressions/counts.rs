@@ -1,6 +1,6 @@
 //! Operations of small programs, counted by hand.
 
-use symbolic::{Counts, Expr, Function, Graph, Op, Program};
+use pfaff_symbolic::{Counts, Expr, Function, Graph, Op, Program};
 
 fn counts(g: &Graph, outputs: &[Expr]) -> Counts {
     Program::new(g, outputs).counts()

@@ -1,7 +1,7 @@
 //! Derivatives compared with dual numbers, and derivations with a closed form.
 
+use pfaff_symbolic::{Derivation, Function, Graph};
 use proptest::prelude::*;
-use symbolic::{Derivation, Function, Graph};
 
 use crate::config;
 use crate::running::Running;

@@ -4,9 +4,9 @@
 
 use std::collections::HashMap;
 
+use pfaff_symbolic::{Counts, Scalar};
 use proc_macro2::TokenStream;
 use quote::quote;
-use symbolic::{Counts, Scalar};
 use syn::{BinOp, Expr, Lit, Pat, Stmt, UnOp};
 
 /// Values of the outputs and the executed operations.

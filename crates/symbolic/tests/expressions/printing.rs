@@ -1,8 +1,8 @@
 //! Printed code: the same values as direct evaluation, exactly the counted operations, and the
 //! text.
 
+use pfaff_symbolic::{Expr, Function, Graph, Printer, Program, Scalar};
 use proptest::prelude::*;
-use symbolic::{Expr, Function, Graph, Printer, Program, Scalar};
 
 use crate::config;
 use crate::interpreter::{self, Run};

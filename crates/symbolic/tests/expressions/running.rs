@@ -5,7 +5,7 @@
 use std::ops::{Add, Div, Mul, Neg};
 
 use num_dual::{Dual64, DualNum};
-use symbolic::{Function, Number};
+use pfaff_symbolic::{Function, Number};
 
 /// Covers terms of second order, and constants that the graph folds in another order.
 const SAFETY: f64 = 4.0;

@@ -1,6 +1,6 @@
 //! The identities that the constructors recognise, one line of algebra each.
 
-use symbolic::{Expr, Function, Graph};
+use pfaff_symbolic::{Expr, Function, Graph};
 
 /// A graph with inputs `a`, `b`, `c`, `x`.
 fn inputs() -> (Graph, [Expr; 4]) {

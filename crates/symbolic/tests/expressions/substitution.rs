@@ -1,7 +1,7 @@
 //! Replacement of inputs.
 
+use pfaff_symbolic::Graph;
 use proptest::prelude::*;
-use symbolic::Graph;
 
 use crate::config;
 use crate::running::Running;

@@ -1,7 +1,7 @@
 //! An expression as it was written, without simplification by the graph, and random ones.
 
+use pfaff_symbolic::{Expr, Function, Graph, Number};
 use proptest::prelude::*;
-use symbolic::{Expr, Function, Graph, Number};
 
 /// Names of the inputs, in the order in which every graph registers them.
 pub(crate) const INPUTS: [&str; 3] = ["x", "y", "z"];

@@ -13,7 +13,7 @@ use crate::figures::style::Style;
 /// ```
 /// use model::{Body, BodyRef, Description, Joint, Mechanism};
 /// use joints::{Direction, KnifeEdge};
-/// use report::figures::{PathRecorder, paths};
+/// use pfaff_report::figures::{PathRecorder, paths};
 /// let sledge = Description {
 ///     bodies: vec![Body { name: "sledge".into(), mass: 1.0, inertia: 1.0, ..Body::default() }],
 ///     joints: vec![Joint::new(
