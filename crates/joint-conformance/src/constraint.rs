@@ -209,7 +209,7 @@ impl<S: Bodies> Subject for OfConstraint<S> {
                 k.d_velocity_dx(x, v, f, out);
             }),
             Kernel::DPhiDp => dense(spec.n_data(), |out| {
-                k.slopes(x, f, Sloped::Phi).phi(lambda, out)
+                k.slopes(x, f, Sloped::Phi).phi(lambda, out);
             }),
             Kernel::DResidualDp => dense(spec.n_data(), |out| {
                 k.slopes(x, f, Sloped::All(v)).residual(lambda, &at.a, out);

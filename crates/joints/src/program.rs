@@ -127,7 +127,7 @@ impl Program {
 
     /// Runs it on the numbers that it is given.
     fn run<T: Ring>(&self, mut values: Vec<T>, out: &mut [T]) {
-        debug_assert_eq!(values.len(), self.given);
+        assert_eq!(values.len(), self.given, "what a program is given");
         for step in &self.steps {
             let at = |place: u32| values[place as usize];
             let value = match *step {
@@ -148,6 +148,8 @@ impl Program {
 /// The programs of one kind of constraint.
 #[derive(Clone, Debug)]
 pub struct Programs {
+    /// Number of values with derivatives that they take; more may be given.
+    jets: usize,
     phi: Program,
     c_constant: Program,
     c: Program,
@@ -163,6 +165,9 @@ type Given<'a, S, T> = (
     &'a [<S as Space>::Twist<T>],
 );
 
+/// A kernel that is recorded.
+type Write<'w, S> = &'w dyn Fn(Given<'_, S, Recorded>, &mut [Recorded]);
+
 impl Programs {
     /// Records the kernels of a constraint that stores so many numbers.
     #[must_use]
@@ -171,46 +176,36 @@ impl Programs {
         let (slots, rows) = (spec.common.slots.len(), spec.rows.len());
         let functions = spec.n_jets();
         let at_rest = stored + slots * S::N_POSE + 3 * functions;
-        let kernel =
-            |given: usize,
-             outputs: usize,
-             write: &dyn Fn(Given<'_, S, Recorded>, &mut [Recorded])| {
-                let (tape, (out, unwritten)) = record(|| {
-                    let given: Vec<Recorded> = (0..given).map(Recorded::input).collect();
-                    let poses = given[stored..].chunks_exact(S::N_POSE).take(slots);
-                    let x: Vec<_> = poses.map(S::pose).collect();
-                    let jets = given[stored + slots * S::N_POSE..].chunks_exact(3);
-                    let f: Vec<[Recorded; 3]> = jets
-                        .take(functions)
-                        .map(|jet| [jet[0], jet[1], jet[2]])
-                        .collect();
-                    let twists = given
-                        .get(at_rest..)
-                        .unwrap_or_default()
-                        .chunks_exact(S::N_DOF);
-                    let v: Vec<_> = twists.map(S::twist).collect();
-                    let unwritten = Recorded::from(f64::NAN);
-                    let mut out = vec![unwritten; outputs];
-                    write((&x, &f, &v), &mut out);
-                    (out, unwritten)
-                });
-                Program::new(given, &tape, &out, unwritten)
-            };
+        let kernel = |given: usize, outputs: usize, write: Write<'_, S>| {
+            let (tape, (out, unwritten)) = record(|| {
+                let given: Vec<Recorded> = (0..given).map(Recorded::input).collect();
+                let poses = given[stored..].chunks_exact(S::N_POSE).take(slots);
+                let x: Vec<_> = poses.map(S::pose).collect();
+                let jets = given[stored + slots * S::N_POSE..].chunks_exact(3);
+                let jets = jets.take(functions);
+                let f: Vec<[Recorded; 3]> = jets.map(|jet| [jet[0], jet[1], jet[2]]).collect();
+                let twists = given.get(at_rest..).unwrap_or_default();
+                let v: Vec<_> = twists.chunks_exact(S::N_DOF).map(S::twist).collect();
+                let unwritten = Recorded::from(f64::NAN);
+                let mut out = vec![unwritten; outputs];
+                write((&x, &f, &v), &mut out);
+                (out, unwritten)
+            });
+            Program::new(given, &tape, &out, unwritten)
+        };
+        let (n_c, moving) = (spec.c.len(), at_rest + slots * S::N_DOF);
         let component = if spec.component.is_some() { rows } else { 0 };
         Self {
-            phi: kernel(at_rest, spec.holonomic, &|(x, f, _), out| {
-                element.phi(x, f, out)
+            jets: functions,
+            phi: kernel(at_rest, spec.holonomic, &|(x, f, _), o| {
+                element.phi(x, f, o);
             }),
-            c_constant: kernel(at_rest, spec.c.len(), &|_, out| element.c_constant(out)),
-            c: kernel(at_rest, spec.c.len(), &|(x, f, _), out| {
-                element.c(x, f, out)
-            }),
-            b: kernel(at_rest, rows, &|(x, f, _), out| element.b(x, f, out)),
-            gamma: kernel(at_rest + slots * S::N_DOF, rows, &|(x, f, v), out| {
-                element.gamma(x, v, f, out)
-            }),
-            component: kernel(at_rest, component, &|(x, f, _), out| {
-                element.component(x, f, out)
+            c_constant: kernel(at_rest, n_c, &|_, o| element.c_constant(o)),
+            c: kernel(at_rest, n_c, &|(x, f, _), o| element.c(x, f, o)),
+            b: kernel(at_rest, rows, &|(x, f, _), o| element.b(x, f, o)),
+            gamma: kernel(moving, rows, &|(x, f, v), o| element.gamma(x, v, f, o)),
+            component: kernel(at_rest, component, &|(x, f, _), o| {
+                element.component(x, f, o);
             }),
         }
     }
@@ -271,9 +266,44 @@ impl<T: Ring> Rows<'_, T> {
         values.extend_from_slice(self.stored);
         x.iter()
             .for_each(|pose| S::numbers_of_pose(pose, &mut values));
-        values.extend(f.iter().flatten());
+        values.extend(f.iter().take(self.programs.jets).flatten());
         v.iter()
             .for_each(|twist| S::numbers_of_twist(twist, &mut values));
         program.run(values, out);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Magnitude;
+
+    /// y = x₀·x₁ − x₁ + 2, with a step that nobody needs.
+    fn program() -> Program {
+        let (tape, (out, unwritten)) = record(|| {
+            let [a, b] = [0, 1].map(Recorded::input);
+            let unwritten = Recorded::from(f64::NAN);
+            let mut out = [unwritten; 3];
+            let _idle = a * a;
+            out[2] = a * b - b + Recorded::from(2.0);
+            (out, unwritten)
+        });
+        Program::new(2, &tape, &out, unwritten)
+    }
+
+    #[test]
+    fn a_program_runs_in_any_ring_and_writes_its_own_entries_alone() {
+        let mut out = [7.0; 3];
+        program().run(vec![3.0, 5.0], &mut out);
+        assert_eq!(out, [7.0, 7.0, 12.0]);
+        let mut sizes = [Magnitude::from(7.0); 3];
+        program().run([3.0, 5.0].map(Magnitude::from).to_vec(), &mut sizes);
+        assert_eq!(sizes.map(Magnitude::value), [7.0, 7.0, 22.0]);
+    }
+
+    #[test]
+    fn steps_that_no_output_needs_are_left_out() {
+        // A product, a difference, a number and a sum.
+        assert_eq!(program().steps.len(), 4);
     }
 }

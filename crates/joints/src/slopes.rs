@@ -23,6 +23,11 @@ impl Dual {
             slopes: std::array::from_fn(slope),
         }
     }
+
+    /// A value of two numbers, with its derivatives by them.
+    fn of(value: f64, [(x, by_x), (y, by_y)]: [(Self, f64); 2]) -> Self {
+        Self::with(value, |k| by_x * x.slopes[k] + by_y * y.slopes[k])
+    }
 }
 
 impl From<f64> for Dual {
@@ -51,9 +56,7 @@ impl Mul for Dual {
     type Output = Self;
 
     fn mul(self, y: Self) -> Self {
-        Self::with(self.value * y.value, |k| {
-            self.slopes[k] * y.value + self.value * y.slopes[k]
-        })
+        Self::of(self.value * y.value, [(self, y.value), (y, self.value)])
     }
 }
 
@@ -102,12 +105,12 @@ impl Seeded {
         }
     }
 
-    /// Poses and twists.
-    fn motion<S: Space>(&self) -> (Vec<S::Pose<Dual>>, Vec<S::Twist<Dual>>) {
-        (
-            self.x.chunks_exact(S::N_POSE).map(S::pose).collect(),
-            self.v.chunks_exact(S::N_DOF).map(S::twist).collect(),
-        )
+    fn poses<S: Space>(&self) -> Vec<S::Pose<Dual>> {
+        self.x.chunks_exact(S::N_POSE).map(S::pose).collect()
+    }
+
+    fn twists<S: Space>(&self) -> Vec<S::Twist<Dual>> {
+        self.v.chunks_exact(S::N_DOF).map(S::twist).collect()
     }
 
     /// Lets the body of a slot move along each of its freedoms.
@@ -173,7 +176,7 @@ fn block<S: Space>(
         } else {
             seeded.move_slot::<S>(slot, &at.x[slot]);
         }
-        let (x, v) = seeded.motion::<S>();
+        let (x, v) = (seeded.poses::<S>(), seeded.twists::<S>());
         let rows_of = kernels.programs().of(&seeded.stored);
         let zero = Dual::from(0.0);
         // Slopes of the rows, or of the columns of Cᵀλ.
@@ -197,7 +200,7 @@ fn block<S: Space>(
             Kernel::Force(_) => {}
             Kernel::Velocity => rows_of.b::<S>(&x, &seeded.f, &mut right),
             Kernel::Residual(_) | Kernel::Gamma => {
-                rows_of.gamma::<S>(&x, &v, &seeded.f, &mut right)
+                rows_of.gamma::<S>(&x, &v, &seeded.f, &mut right);
             }
         }
         let sign = if by_velocity { 1.0 } else { -1.0 };
@@ -328,7 +331,7 @@ impl Slopes {
         let mut of_stored: Vec<(usize, usize, f64)> = Vec::new();
         kernels.d_stored_dp(&mut |stored, number, slope| of_stored.push((stored, number, slope)));
         let mut seeded = Seeded::new(kernels, At { x, v, f });
-        let (x, v) = seeded.motion::<S>();
+        let (x, v) = (seeded.poses::<S>(), seeded.twists::<S>());
         for first in (0..n).step_by(LANES) {
             let lanes = first..n.min(first + LANES);
             still(&mut seeded.stored);
@@ -354,7 +357,7 @@ impl Slopes {
             }
             if !v.is_empty() {
                 add(&mut slopes.gamma, sizes[2], &|out| {
-                    rows.gamma::<S>(&x, &v, f, out)
+                    rows.gamma::<S>(&x, &v, f, out);
                 });
             }
         }

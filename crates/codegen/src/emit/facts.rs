@@ -98,9 +98,12 @@ fn of_rows(k: &ConstraintKernels) -> (Option<TokenStream>, [TokenStream; 3]) {
     let same = |a: &Sparse, b: &Sparse| a.iter().map(|e| e.0).eq(b.iter().map(|e| e.0));
     let first = &k.d_residual_dx;
     let is_shared = !first.is_empty() && blocks[1..].iter().any(|block| same(block, first));
-    let patterns = blocks.map(|block| match is_shared && same(block, first) {
-        true => quote!(ROWS_BY_X),
-        false => pattern(block),
+    let patterns = blocks.map(|block| {
+        if is_shared && same(block, first) {
+            quote!(ROWS_BY_X)
+        } else {
+            pattern(block)
+        }
     });
     let entries = pattern(first);
     let shared = quote! {

@@ -157,7 +157,7 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
             (
                 "phi",
                 agree(spec.holonomic, &|o| plain.phi(x, f, o), &|o| {
-                    rows.phi::<S>(x, f, o)
+                    rows.phi::<S>(x, f, o);
                 }),
             ),
             (
@@ -167,7 +167,7 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
             (
                 "c_constant",
                 agree(entries, &|o| plain.c_constant(o), &|o| {
-                    rows.c_constant::<S>(x, f, o)
+                    rows.c_constant::<S>(x, f, o);
                 }),
             ),
             (
@@ -177,13 +177,13 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
             (
                 "gamma",
                 agree(m, &|o| plain.gamma(x, v, f, o), &|o| {
-                    rows.gamma::<S>(x, v, f, o)
+                    rows.gamma::<S>(x, v, f, o);
                 }),
             ),
             (
                 "component",
                 agree(component, &|o| plain.component(x, f, o), &|o| {
-                    rows.component::<S>(x, f, o)
+                    rows.component::<S>(x, f, o);
                 }),
             ),
         ];
