@@ -5,6 +5,7 @@
 //! run times and write `docs/reports`.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+mod api;
 mod browser;
 mod choices;
 mod codegen;
@@ -25,6 +26,7 @@ const USAGE: &str = "usage: cargo xtask COMMAND
   codegen [--check]   kernels of joints and forces from their definitions
   codegen --scene FILE --out FILE.rs [--drop ROWS] [--dynamics PATH] [--libm] [--inputs KEYS] [--check]
                       one mechanism as one module; what KEYS touch, numbers of the scene such as body.cart.mass,joint.A.at, is an argument of it
+  api [--check]       what a user of each published crate can name, into docs/api
   right-hand-side     times and instructions of one right-hand side, into docs/reports/right-hand-side
   instructions        the same, told only
   choices             build time, size and dependencies of programs that use a part, into docs/reports/choices
@@ -48,6 +50,8 @@ fn main() -> ExitCode {
         ["codegen"] => codegen::write(),
         ["codegen", "--check"] => codegen::check(),
         ["codegen", "--scene", scene, rest @ ..] => scene::generate(scene, rest),
+        ["api"] => api::write(),
+        ["api", "--check"] => api::check(),
         ["right-hand-side"] => right_hand_side::report(),
         ["instructions"] => right_hand_side::instructions(),
         ["choices"] => choices::report(),
