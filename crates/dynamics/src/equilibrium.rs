@@ -39,6 +39,7 @@ pub struct EquilibriumOptions {
 /// A configuration at rest.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Equilibrium {
     /// Time (s).
     pub time: f64,
@@ -69,6 +70,7 @@ pub struct Equilibrium {
 /// What becomes of small displacements from a place of rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum RestStability {
     /// Nothing can move.
     Immovable,

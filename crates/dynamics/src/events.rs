@@ -5,6 +5,7 @@ use solvability::Value;
 
 /// One event.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Event {
     /// Time (s).
     pub time: f64,
@@ -26,6 +27,7 @@ pub struct Event {
 /// The impulse of a joint or drive where velocities jump: the integral of its reaction over the
 /// instant, with the components of the reaction.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionImpulse {
     /// The joint or drive.
     pub id: ConstraintId,
@@ -52,6 +54,7 @@ impl Event {
 /// Kinds of events.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum EventKind {
     /// Other rows are kept; the rank is the same.
     RowsExchanged,

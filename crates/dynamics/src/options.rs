@@ -10,6 +10,7 @@ use crate::error::MotionError;
 /// How the equations of motion are integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Method {
     /// Dormand–Prince 8(5,3), or Radau IIA if forces make the motion stiff at its start.
     #[default]

@@ -29,6 +29,7 @@ pub enum Direction {
 
 /// A zero of g.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Crossing {
     /// Time, exact to a few units in the last place of t for the dense output; at this time g is
     /// zero or already has its new sign.

@@ -23,6 +23,7 @@ pub trait Method<O: Ode> {
 
 /// How an integration ended without failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum End {
     /// `t_end` was reached, exactly.
     Reached,
@@ -32,6 +33,7 @@ pub enum End {
 
 /// Result of an integration without failure.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Outcome {
     /// Time reached: `t_end`, or the end of the step after which the observer stopped.
     pub t: f64,

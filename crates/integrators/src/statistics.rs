@@ -5,6 +5,7 @@ use std::ops::Add;
 /// Counts of one integration, complete also after a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Statistics {
     /// Evaluations of f for the steps, including starts, restarts at break times, stages and
     /// rejected trials.

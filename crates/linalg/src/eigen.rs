@@ -17,6 +17,7 @@ use crate::{Matrix, PivotedQr, powers};
 
 /// An eigenvalue and its eigenvector; complex numbers as real and imaginary parts.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Eigenpair {
     /// The eigenvalue.
     pub value: [f64; 2],
@@ -83,6 +84,7 @@ pub fn eigenpairs(a: &Matrix) -> Option<Vec<Eigenpair>> {
 
 /// The eigenvalue zero of a matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ZeroEigenvalue {
     /// How many eigenvalues are zero.
     pub multiplicity: usize,

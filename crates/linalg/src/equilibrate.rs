@@ -16,6 +16,7 @@ use crate::{Matrix, SparseMatrix};
 ///
 /// Exponents instead of factors, so that the scaling is exact by construction.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Scaling {
     /// Exponents of the row factors, length m.
     pub rows: Vec<i32>,

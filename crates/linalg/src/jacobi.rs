@@ -11,6 +11,7 @@ use crate::{Matrix, kernels};
 /// U (m×k), right ones in those of V (n×k), σ largest first. Where σ = 0 the columns of U, or of V
 /// if A is wide, are zero.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SmallSvd {
     /// Left singular vectors, m × k.
     pub u: Matrix,
@@ -64,6 +65,7 @@ pub fn small_svd(a: &Matrix) -> SmallSvd {
 
 /// Eigenvalues and eigenvectors of a small symmetric matrix.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SymmetricEigen {
     /// Eigenvalues, largest first.
     pub values: Vec<f64>,

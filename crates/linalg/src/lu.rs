@@ -31,6 +31,7 @@ pub struct Lu {
 
 /// A determinant whose value may overflow or underflow.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Determinant {
     /// +1, −1, or 0.
     pub sign: f64,
@@ -54,6 +55,7 @@ impl Determinant {
 /// A column without a pivot.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("column {column} has the pivot {pivot}, need a finite number that is not zero")]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SingularPivot {
     /// The column.
     pub column: usize,

@@ -237,6 +237,14 @@ impl Matrix {
     }
 }
 
+/// A list of rows.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Matrix {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq((0..self.nrows).map(|i| self.row(i)))
+    }
+}
+
 impl Index<(usize, usize)> for Matrix {
     type Output = f64;
 

@@ -17,6 +17,7 @@ use crate::system::{Scratch, System};
 
 /// The level at which rows are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum ConstraintLevel {
     /// Φ = 0
     Position,

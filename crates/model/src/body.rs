@@ -253,6 +253,7 @@ impl BodyRecord {
 
 /// A body of the mechanism, by its index in the list, or the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum BodyRef {
     /// The ground.
     Ground,

@@ -64,6 +64,7 @@ impl Across {
 
 /// Unit of a change of data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum DataUnit {
     /// Metre.
     Length,

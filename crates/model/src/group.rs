@@ -9,6 +9,7 @@ use crate::space::SpaceKind;
 
 /// Index of a joint or drive in [`crate::Layout::groups`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ConstraintId(pub usize);
 
 /// A joint or a drive.

@@ -76,6 +76,7 @@ impl Reaction {
 
 /// Unit vectors of axes, ground axes: as many as the space has.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Axes {
     axes: [[f64; 3]; 3],
     count: usize,

@@ -31,6 +31,7 @@ use joints::Ring;
 
 /// Axes in which the force of a reaction is expressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Frame {
     /// The axes of the ground.
     Global,
@@ -52,6 +53,7 @@ impl Frame {
 
 /// The space of a mechanism.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum SpaceKind {
     /// [`Plane`]
     #[default]

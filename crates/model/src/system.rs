@@ -228,6 +228,7 @@ impl Pattern {
 
 /// Name of a row: the joint, and the row within the joint.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RowLabel {
     /// Number of the row, from 1.
     pub number: usize,

@@ -6,6 +6,7 @@ use std::fmt;
 
 /// The tolerances of a scene, valid unless one is stated for a joint or body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Tolerance {
     /// Tolerance of points and lengths (m).
     pub length: Option<f64>,

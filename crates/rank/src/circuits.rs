@@ -17,6 +17,7 @@ use linalg::{kernels, powers::scale};
 
 /// One minimal dependent set of rows: `Σ coefficients[l] · row rows[l] = 0`.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Circuit {
     /// Rows with a non-zero coefficient, ascending.
     pub rows: Vec<usize>,

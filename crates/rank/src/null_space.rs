@@ -11,6 +11,7 @@ use linalg::{Matrix, PivotedQr, kernels};
 
 /// Partition of the rows by common dependencies.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Components {
     /// Sets of coupled rows: each list ascending, lists ordered by their first row.
     pub coupled: Vec<Vec<usize>>,

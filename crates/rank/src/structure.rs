@@ -38,6 +38,7 @@ pub(crate) use incidence::{partition, within};
 
 /// Result for a row or group before any rank of the whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Settled {
     /// All its rows were removed with blocks on which they are independent: its multipliers are
     /// unique.
@@ -50,6 +51,7 @@ pub enum Settled {
 
 /// Results that follow from the pattern.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Structure {
     /// For each group, why it is settled, or its part; peeled if all its rows are peeled.
     pub groups: Vec<Settled>,

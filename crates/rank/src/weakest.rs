@@ -6,6 +6,7 @@ use linalg::{Matrix, PivotedQr, kernels};
 
 /// Weights of rows that nearly cancel.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct WeakestCombination {
     /// Norm of the combination: about the smallest singular value of the rows.
     pub sigma: f64,

@@ -24,6 +24,7 @@ use crate::state::check_configuration;
 
 /// The verdicts of one configuration.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Analysis {
     /// Time of the configuration (s).
     pub time: f64,

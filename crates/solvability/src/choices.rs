@@ -148,6 +148,7 @@ pub struct Distribution {
 /// A reaction on the first body, at the place of the joint.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionValues {
     /// The joint or drive.
     pub id: ConstraintId,

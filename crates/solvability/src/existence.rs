@@ -28,6 +28,7 @@ pub use limit::{DriveLimit, LimitedDrive, drive_limit};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("at t = {time} s {}. {}", self.what(), self.advice())]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Contradiction {
     /// Time (s).
     pub time: f64,

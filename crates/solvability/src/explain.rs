@@ -24,6 +24,7 @@ use crate::words::{self, list, names};
 /// Explanation of the redundancy of a configuration.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Explanation {
     /// One self-stress for each degree of redundancy, short ones first.
     pub stresses: Vec<SelfStress>,
@@ -39,6 +40,7 @@ pub struct Explanation {
 /// Loads that joints can put on each other while the total force on each body is zero.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SelfStress {
     /// Rows of C, from 0: a minimal dependent set.
     pub rows: Vec<usize>,
@@ -57,6 +59,7 @@ pub struct SelfStress {
 /// Load on one joint or drive in a self-stress.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FreeDirection {
     /// The joint or drive.
     pub joint: ConstraintId,
@@ -78,6 +81,7 @@ pub struct FreeDirection {
 /// Joints and drives whose reactions are coupled by dependencies.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Mixing {
     /// The joints and drives.
     pub reactions: Vec<ConstraintId>,
@@ -92,6 +96,7 @@ pub struct Mixing {
 /// The reason why the reaction of one joint or drive is not unique.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionExplanation {
     /// The joint or drive.
     pub id: ConstraintId,

@@ -12,6 +12,7 @@ use crate::judged::ComponentVerdict;
 /// A reaction in one frame.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FrameVerdict {
     /// The frame.
     pub frame: Frame,

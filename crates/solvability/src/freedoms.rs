@@ -35,6 +35,7 @@ pub use ranks::WithoutDrives;
 /// The possible motions at a configuration, with the drives and without them.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Freedoms {
     /// Mobility n_v − r.
     pub mobility: usize,
@@ -56,6 +57,7 @@ pub struct Freedoms {
 /// The possible motions if the drives are removed.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FreedomsWithoutDrives {
     /// Number of drives that are removed.
     pub drives: usize,

@@ -37,6 +37,7 @@ pub struct Generic {
 /// Another configuration.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct OtherConfiguration {
     /// Time (s).
     pub time: f64,
@@ -51,6 +52,7 @@ pub struct OtherConfiguration {
 /// The verdicts on a joint or drive that hold at nearly all configurations.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GenericVerdict {
     /// The joint or drive.
     pub id: ConstraintId,

@@ -27,6 +27,7 @@ use crate::verdict::{Judgement, worst};
 /// The verdict of a group.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GroupVerdict {
     /// Verdict on the whole group. If it has parts: not unique if one part is not unique, otherwise
     /// undecided if one part is undecided.

@@ -11,6 +11,7 @@ use crate::verdict::Judgement;
 
 /// The verdict on a joint or drive.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionVerdict {
     /// The joint or drive.
     pub id: ConstraintId,
@@ -59,6 +60,7 @@ impl ReactionVerdict {
 
 /// The verdict on one row.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RowVerdict {
     /// Row of C, from 0.
     pub row: usize,
@@ -68,6 +70,7 @@ pub struct RowVerdict {
 
 /// The verdict on one component of a reaction.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ComponentVerdict {
     /// `Fx`, `Fy` or `T`; in space `Fx` to `Tz`; or the named component of a definition.
     pub name: &'static str,
@@ -77,6 +80,7 @@ pub struct ComponentVerdict {
 
 /// A minimal set of dependent rows.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Dependency {
     /// Rows of C, from 0.
     pub rows: Vec<usize>,

@@ -27,6 +27,7 @@ pub enum Allowed {
 /// One way to make a reaction unique.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Proposal {
     /// Rows to delete (from 0), ascending; empty if no deletion is needed.
     pub rows: Vec<usize>,
@@ -37,6 +38,7 @@ pub struct Proposal {
 /// The ways to make a reaction unique with the smallest number of deletions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Proposals {
     /// The proposals. Each is sufficient by itself, and none of its rows can be omitted. Empty if
     /// no allowed deletion is sufficient.

@@ -17,6 +17,7 @@ const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 /// The moment of a reaction about a point.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MomentVerdict {
     /// The point (m), ground axes.
     pub about: [f64; 3],

@@ -23,6 +23,7 @@ use crate::words;
 
 /// Which joints, bodies and rows of a mechanism belong to a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Extent {
     /// All of them: the part is the whole mechanism.
     Whole,
@@ -207,6 +208,7 @@ impl<'a> ListedRows<'a> {
 
 /// Analysis of a part.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PartAnalysis {
     /// Joints, bodies and rows of the part.
     pub extent: Extent,
@@ -229,6 +231,7 @@ pub struct PartAnalysis {
 
 /// The rank of a part, decided by a dense matrix or by sparse factors.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum PartDecision {
     /// Dense decision, with the dependencies of all rows.
     Dense(Box<RankDecision>),

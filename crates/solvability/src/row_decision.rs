@@ -4,6 +4,7 @@ use rank::{RankDecision, RankStatus, SparseRank};
 
 /// Rank and rows to keep.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RowDecision {
     /// Rank r.
     pub rank: usize,

@@ -37,6 +37,7 @@ pub use zeros::{CommonZero, common_zero};
 /// How a motion continues at a configuration at which the rank drops.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Continuation {
     /// No other velocity is compatible: the new motions are blocked at second order.
     Unique,

@@ -28,6 +28,7 @@ pub use recorder::{Looked, VerdictRecorder};
 
 /// The verdict on a number over an interval of time.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct VerdictStretch {
     /// Begin (s).
     pub from: f64,
@@ -39,6 +40,7 @@ pub struct VerdictStretch {
 
 /// An instant at which another verdict holds than on its stretch.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SpecialInstant {
     /// Time (s).
     pub time: f64,
@@ -48,6 +50,7 @@ pub struct SpecialInstant {
 
 /// The verdicts on one number during a run.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct VerdictTrack {
     /// In the order of time, without gaps; neighbours differ in their verdicts.
     stretches: Vec<VerdictStretch>,
@@ -211,6 +214,7 @@ pub(crate) fn worst<'v>(verdicts: impl Iterator<Item = &'v Verdict>) -> &'v Verd
 
 /// The verdicts on a joint or drive during a run.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionStretches {
     /// The joint or drive.
     pub id: ConstraintId,
@@ -253,6 +257,7 @@ impl ReactionStretches {
 
 /// The verdicts on a group during a run.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GroupStretches {
     /// The verdict on the whole group.
     pub whole: VerdictTrack,
@@ -262,6 +267,7 @@ pub struct GroupStretches {
 
 /// The verdicts of a run.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Stretches {
     /// Begin and end of the run (s).
     pub extent: [f64; 2],

@@ -24,6 +24,7 @@ use rewrite::Rewriting;
 
 /// Result of a change of units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Nature {
     /// The same in all units, to rounding.
     Fact,
@@ -34,6 +35,7 @@ pub enum Nature {
 /// A number under a change of units.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct UnitCheck {
     /// The joint or drive.
     pub id: ConstraintId,

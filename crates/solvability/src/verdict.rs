@@ -5,6 +5,7 @@ use rank::CoefficientReading;
 /// Whether a reaction is determined by the model.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Verdict {
     /// The same for every solution of the equations.
     Unique,
@@ -62,6 +63,7 @@ impl Verdict {
 
 /// A verdict with its margin.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Judgement {
     /// The verdict.
     pub verdict: Verdict,

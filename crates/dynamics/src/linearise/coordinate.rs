@@ -11,6 +11,7 @@ pub(crate) const BODY: usize = 6;
 /// A coordinate of the frame of a body, or its velocity.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Coordinate {
     /// `body.x`, or `body.vx`.
     pub name: String,

@@ -9,6 +9,7 @@ use super::error::LineariseError;
 /// Number that acts on the motion from outside.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Input {
     /// Name of the drive or of the force.
     pub name: String,

@@ -8,6 +8,7 @@ use super::inputs::Input;
 /// The linearised motion about a state.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Linearisation {
     /// Time (s).
     pub time: f64,
@@ -38,6 +39,7 @@ pub struct Linearisation {
 /// Matrices of `M·ÿ + D·ẏ + K·y`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SecondOrder {
     /// Masses and moments of inertia.
     pub mass: Matrix,

@@ -6,6 +6,7 @@ use super::Linearisation;
 /// only the one with the positive imaginary part is listed.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Mode {
     /// The eigenvalue λ (1/s); exactly zero if rounding explains it.
     pub value: [f64; 2],

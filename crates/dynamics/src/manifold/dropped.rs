@@ -12,6 +12,7 @@ use crate::solve::{Evaluation, KeptEquations, KeptRows, Misfits};
 
 /// Result of a projection.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Correction {
     /// Number of corrections of the position.
     pub iterations: usize,

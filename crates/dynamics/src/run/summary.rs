@@ -11,6 +11,7 @@ use solvability::Stretches;
 
 /// Numbers of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Summary {
     /// Last time reached (s).
     pub t: f64,
@@ -62,6 +63,7 @@ pub struct Summary {
 /// Rows whose multipliers were zero by choice, from a time on.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DroppedRows {
     /// Time of the first row of output (s).
     pub from: f64,
@@ -72,6 +74,7 @@ pub struct DroppedRows {
 /// Numbers of a component that was run separately.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ComponentSummary {
     /// Its bodies.
     pub name: String,

@@ -16,6 +16,7 @@ use crate::limits::SAME_MISFIT;
 /// What a dropped row misses at most during a motion.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Misfit {
     /// The row, from 0.
     pub row: usize,

@@ -21,6 +21,7 @@ pub struct Part {
 
 /// Places of a part in the whole mechanism; all lists ascending.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Places {
     /// Its bodies.
     pub bodies: Vec<usize>,

@@ -3,6 +3,7 @@
 
 /// The proof behind a rank, in addition to the numbers in [`Evidence`](crate::Evidence).
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Certificate {
     /// Proved lower bound on the rank of every matrix within the uncertainty.
     pub rank_at_least: usize,
@@ -48,6 +49,7 @@ pub struct Certificate {
 /// Reason why a rank is not larger.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Grounds {
     /// The rank equals the number of rows or of columns.
     FullRank,
@@ -64,6 +66,7 @@ pub enum Grounds {
 
 /// Rows that are independent by a small margin only.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NearlyRedundant {
     /// σ_r of the equilibrated matrix; below 1e-28 it is an upper estimate.
     pub sigma: f64,

@@ -10,6 +10,7 @@ use crate::limits::{
 
 /// Classification of a coefficient of the equilibrated dependencies.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum CoefficientReading {
     /// Certainly zero.
     Zero,

@@ -6,6 +6,7 @@ use linalg::{Matrix, Scaling, powers::scale};
 
 /// Rank of a constraint matrix C (m×n), with the rows to keep and the evidence for it.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RankDecision {
     /// Rank r of C. If undecided, the candidate with the larger gap.
     pub rank: usize,
@@ -28,6 +29,7 @@ pub struct RankDecision {
 
 /// The numbers behind a rank decision; all of them belong to the equilibrated matrix.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Evidence {
     /// All `min(m, n)` singular values, largest first; empty for a sparse decision.
     pub singular_values: Vec<f64>,
@@ -51,6 +53,7 @@ pub struct Evidence {
 /// Whether the singular values allow another rank.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum RankStatus {
     /// `σ_{r+1} ≤ τ` and `σ_r ≥ max(10³·τ, 10⁻⁷)`; with a certificate, as stated by its
     /// [`Grounds`](super::Grounds).
@@ -62,6 +65,7 @@ pub enum RankStatus {
 /// Reason why a rank is undecided, with the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Doubt {
     /// A singular value is between "certainly zero" and "certainly not zero".
     #[error(
@@ -175,6 +179,7 @@ pub enum Doubt {
 /// Invalid input for a rank decision.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum RankError {
     /// An entry of C is NaN or infinite.
     #[error("constraint matrix: entry in row {row}, column {col} is {value}, need a finite number")]

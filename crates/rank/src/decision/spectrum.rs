@@ -4,6 +4,7 @@ use linalg::{Matrix, singular_values};
 
 /// A matrix in `f64` with all its `min(m, n)` singular values, largest first.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Spectrum {
     matrix: Matrix,
     values: Vec<f64>,

@@ -114,6 +114,7 @@ pub fn certify_within<'a>(
 
 /// A rank that has been read from f64, with its evidence; see [`certify_rank`].
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RankReading {
     /// Rank r.
     pub rank: usize,

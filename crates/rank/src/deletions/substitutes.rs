@@ -27,6 +27,7 @@ impl Default for Limits {
 
 /// Smallest sets of candidates whose deletion makes a target unique.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Substitutes {
     /// Each set lists the indices of candidates, ascending; all sets have the same, smallest number
     /// of candidates. One empty set if the target is already unique; no set if no deletion of

@@ -41,6 +41,7 @@ mod tests;
 /// Rank of a sparse constraint matrix, with the rows to keep, random combinations of its left null
 /// space, and the evidence.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SparseRank {
     /// Rank r of C. If undecided, an estimate.
     pub rank: usize,
@@ -63,6 +64,7 @@ pub struct SparseRank {
 
 /// The numbers behind a sparse rank decision; all of them belong to the equilibrated matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SparseEvidence {
     /// Lower bound on the smallest singular value of the kept rows, and so on σ_r; at most about
     /// four times too small. Infinite for rank 0.

@@ -19,6 +19,7 @@ pub struct RowGroup {
 
 /// Blocks and groups that are independent of the others.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Part {
     /// Groups, ascending.
     pub groups: Vec<usize>,

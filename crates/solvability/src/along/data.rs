@@ -28,6 +28,7 @@ pub struct Along {
 /// The rank that holds almost everywhere on a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GenericRank {
     /// An instant at which it holds (s).
     pub time: f64,
@@ -40,6 +41,7 @@ pub struct GenericRank {
 /// A stretch of the motion, between break times, with another rank than the rest.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Stretch {
     /// Time at which it begins (s).
     pub from: f64,
@@ -54,6 +56,7 @@ pub struct Stretch {
 /// An instant at which the configuration is singular, or nearly so.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Passage {
     /// Time of the instant (s).
     pub time: f64,
@@ -70,6 +73,7 @@ pub struct Passage {
 /// The kind of an event at an instant.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum PassageKind {
     /// The rank drops.
     RankDrops {
@@ -93,6 +97,7 @@ pub enum PassageKind {
 /// One verdict that differs.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Difference {
     /// Name of the joint or drive.
     pub reaction: String,

@@ -8,6 +8,7 @@ use crate::words::short;
 /// The motion that a drive prescribes at one time.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Demand {
     /// The drive.
     pub drive: String,

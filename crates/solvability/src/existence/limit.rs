@@ -23,6 +23,7 @@ use crate::words;
 /// Drives that cannot go on: there is no configuration beyond.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DriveLimit {
     /// The last time with a configuration (s).
     pub time: f64,
@@ -33,6 +34,7 @@ pub struct DriveLimit {
 /// A drive at the last configuration that it reaches.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LimitedDrive {
     /// The drive, or the joint with a function of time.
     pub name: String,

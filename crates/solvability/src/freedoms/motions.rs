@@ -5,6 +5,7 @@ use super::ranks::WithoutDrives;
 /// A basis of the velocities that the rows allow.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FreeMotions {
     /// The motions as text and numbers, at most [`MOTIONS_REPORTED`](crate::MOTIONS_REPORTED).
     pub motions: Vec<FreeMotion>,
@@ -14,6 +15,7 @@ pub struct FreeMotions {
 
 /// Freedoms that are only counted.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LeftOut {
     /// Their number.
     pub freedoms: usize,
@@ -25,6 +27,7 @@ pub struct LeftOut {
 /// other, have all rigid motions in one entry.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FreeMotion {
     /// Description, for example "`crank` turns about `A`; with it `coupler` and `rocker` turn".
     pub text: String,

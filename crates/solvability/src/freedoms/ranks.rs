@@ -7,6 +7,7 @@ use crate::error::AnalysisError;
 
 /// Rank and redundancy of the rows without those of drives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct WithoutDrives {
     /// Their rank.
     pub rank: usize,

@@ -16,6 +16,7 @@ use crate::pose::velocity_units;
 
 /// What second order says of velocities with `C·v = 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum SecondOrder {
     /// No combination of them satisfies the second-order equations: no motion has such a velocity.
     Blocked,
@@ -28,6 +29,7 @@ pub enum SecondOrder {
 /// Velocities of connected bodies that the second-order equations restrict.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Restricted {
     /// The bodies, ascending.
     pub bodies: Vec<usize>,
@@ -43,6 +45,7 @@ pub struct Restricted {
 /// The restrictions of second order at one configuration.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Restrictions {
     /// Restricted velocities, set by set.
     pub restricted: Vec<Restricted>,

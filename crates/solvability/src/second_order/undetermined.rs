@@ -5,6 +5,7 @@ use rank::{Doubt, RankError};
 /// Reason why second order does not decide.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Undetermined {
     /// There are more new motions than are examined.
     #[error("{found} new motions at once, more than the {most} that are examined")]

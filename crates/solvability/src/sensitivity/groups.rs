@@ -10,6 +10,7 @@ use crate::value::Sensitivity;
 
 /// Sensitivities of the numbers of a group that are unique.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GroupSensitivities {
     /// Those of its numbers by their names, as [`Group::number_names`]. The terms of a sum change
     /// together: what changes them may cancel in the sum.

@@ -14,6 +14,7 @@ use crate::words;
 
 /// Sensitivities of the numbers of one reaction that are unique.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionSensitivities {
     /// Those of components by their names, as in [`crate::ComponentVerdict`]; also that of the
     /// named component of the definition, such as `N` of a knife edge or `drive`.
@@ -48,6 +49,7 @@ impl ReactionSensitivities {
 
 /// Sensitivities of the reactions of a mechanism of any size.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sensitivities {
     /// Those of joints and drives in the order of their rows. They are empty for a reaction without
     /// a unique component, and where they cannot be computed.

@@ -5,6 +5,7 @@ use model::{ConstraintId, DataUnit, Layout};
 
 /// Changes of a number of reactions with one point.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sensitivity {
     /// Largest change, relative to the larger of the number and of the largest applied or inertial
     /// load, which is multiplied by the size for moments.
@@ -15,6 +16,7 @@ pub struct Sensitivity {
 
 /// A point, direction or number of a joint or drive, and by how much it is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Datum {
     /// The joint or drive.
     pub joint: ConstraintId,

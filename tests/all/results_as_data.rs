@@ -1,0 +1,61 @@
+//! The feature `serde` of the lower crates: results are data by the names of their fields, and a
+//! number that is no number is not one there either.
+
+use linalg::Matrix;
+use pfaff::{Overrides, Study};
+use serde_json::{Value, json, to_value};
+
+/// A beam on three supports, of which none carries a known share.
+const BEAM: &str = "
+[body.beam]
+mass = 2.0
+inertia = 1.0
+[joint.left]
+type = 'revolute'
+bodies = ['ground', 'beam']
+at = [-1.0, 0.0]
+[joint.right]
+type = 'revolute'
+bodies = ['ground', 'beam']
+at = [1.0, 0.0]
+";
+
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().expect("an object").keys().map(String::as_str).collect()
+}
+
+#[test]
+fn a_rank_is_data() {
+    let c = Matrix::from_rows(&[[1.0, 0.0], [2.0, 0.0]]);
+    let decision = rank::decide(&c, rank::Accuracy::Exact).expect("decided");
+    let data = to_value(&decision).expect("data");
+    assert_eq!((&data["rank"], &data["redundancy"]), (&json!(1), &json!(1)));
+    let null_space = data["null_space"].as_array().expect("rows");
+    assert_eq!(null_space.len(), 2, "{data}");
+}
+
+#[test]
+fn verdicts_and_motions_are_data() {
+    let study = Study::from_text("beam.toml", BEAM, &Overrides::default()).expect("a scene");
+    let analysis = study.analyse(0.0, None).expect("analysed").analysis;
+    let data = to_value(&analysis).expect("data");
+    assert_eq!(data["rank"], json!(3), "{:?}", keys(&data));
+    let first = &data["reactions"][0];
+    assert_eq!(first["name"], json!("left"));
+    let along = &first["components"][0];
+    assert_eq!(along["component"], json!("Fx"));
+    assert_eq!(along["judgement"]["verdict"], json!("NotUnique"), "{along}");
+}
+
+#[test]
+fn what_an_integration_cost_is_data() {
+    use integrators::{Dop853, Function, Interval, Options, integrate};
+    use std::ops::ControlFlow;
+    let mut decay = Function::new(1, |_t, y: &[f64], dy: &mut [f64]| dy[0] = -y[0]);
+    let interval = Interval::new(0.0, 1.0);
+    let options = Options::with_tolerance(1e-8, 1e-8);
+    let end = integrate(&Dop853, &mut decay, &interval, &[1.0], &options, |_| ControlFlow::Continue(()));
+    let data = to_value(end.expect("integrated")).expect("data");
+    assert_eq!(data["t"], json!(1.0));
+    assert!(data["statistics"]["evaluations"].as_u64().is_some_and(|n| n > 10), "{data}");
+}
