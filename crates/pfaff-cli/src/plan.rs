@@ -3,6 +3,7 @@
 use pfaff::Overrides;
 use pfaff::dynamics::Plan;
 use pfaff::dynamics::plan::Line;
+use pfaff::memory::Bytes;
 use pfaff::report::PlanDocument;
 
 use crate::args;
@@ -10,7 +11,6 @@ use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Outcome, columns, count, wrapped};
-use crate::resources::Bytes;
 use crate::sweep;
 
 pub(crate) fn run(arguments: &args::Plan, console: &Console<'_>) -> Outcome {

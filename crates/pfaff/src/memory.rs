@@ -1,11 +1,19 @@
 //! Estimates the memory for work on a scene before it is allocated, from sizes and sparsity
 //! patterns only. The estimates are meant to be upper bounds.
 
+#[cfg(feature = "messages")]
+mod budget;
+#[cfg(all(feature = "messages", target_os = "linux"))]
+mod linux;
+
 use solvability::memory_of_verdicts;
 
 use crate::assembled::AssembledScene;
 use crate::error::StudyError;
 use crate::study::Study;
+
+#[cfg(feature = "messages")]
+pub use budget::{Budget, Bytes};
 
 /// Bytes for each byte of a scene: its text, its tables with their places, the mechanism and its
 /// names.
