@@ -176,6 +176,19 @@ pub enum Tables {
     NotYet,
 }
 
+/// Forgets the rows of runs that have ended their process, if there are some in a directory: the
+/// next call of [`Sweep::run_into`] makes these runs again. Returns their number. No process may
+/// make runs of the sweep meanwhile.
+///
+/// # Errors
+/// [`SweepError::Journal`]: the directory cannot be read or written.
+pub fn forget_crashed(directory: &Path) -> Result<u64, SweepError> {
+    if !Shards::are_in(directory) {
+        return Ok(0);
+    }
+    Ok(Shards::find(directory)?.forget_crashed()?)
+}
+
 /// Merges what several directories have into one set of tables.
 ///
 /// # Errors

@@ -465,6 +465,20 @@ fn a_run_that_ends_its_process_twice_is_named() {
     sweep
         .run_into(&folder.0, &again, || false, note)
         .expect("nothing is left");
+    // It is forgotten if that is asked for: then the two runs, and no others, are made again.
+    assert_eq!(super::forget_crashed(&folder.0).expect("forgotten"), 2);
+    assert_eq!(super::forget_crashed(&folder.0).expect("forgotten"), 0);
+    let (mut finished, mut made) = (0, Vec::new());
+    let note = |progress: SweepProgress<'_>| match progress {
+        SweepProgress::Begin { finished: n, .. } => finished = n,
+        SweepProgress::Finished(row) => made.push(row.run),
+    };
+    let outcome = sweep.run_into(&folder.0, &again, || false, note);
+    let document = outcome.expect("made").document;
+    made.sort_unstable();
+    assert_eq!((finished, made), (58, vec![7, 45]));
+    assert_eq!((document.done, document.crashed), (60, 0));
+    assert_eq!(folder.table(), whole.table());
 }
 
 #[test]

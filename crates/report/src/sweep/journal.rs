@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use super::line::{Entry, Head, line, record};
-use super::{JournalError, Runs, SweepPlan, SweepRow};
+use super::{Cell, JournalError, Runs, SweepPlan, SweepRow};
 use crate::files::FileError;
 use crate::files::process::Process;
 
@@ -95,7 +95,12 @@ impl Journal {
     /// [`JournalError::File`]: it could not be written.
     pub fn append(&mut self, row: &SweepRow) -> Result<(), JournalError> {
         let cells = self.plan.cells(row);
-        let text = record(&cells).map_err(FileError::refused("write", &self.path))?;
+        self.append_cells(&cells)
+    }
+
+    /// Adds a finished run whose row was read from another file.
+    pub(super) fn append_cells(&mut self, cells: &[Cell]) -> Result<(), JournalError> {
+        let text = record(cells).map_err(FileError::refused("write", &self.path))?;
         self.line(&text, SyncWhen::Seldom)
     }
 

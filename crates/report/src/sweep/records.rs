@@ -38,6 +38,17 @@ impl Records {
         rows.any(|cells| cells.get(status) != Some(&refused))
     }
 
+    /// The runs whose rows state that they have ended their process.
+    #[must_use]
+    pub fn crashed(&self) -> Vec<u64> {
+        let crashed = Cell::Text(SweepStatus::Crashed.name().to_owned());
+        let status = Columns::of(&self.plan).status;
+        let rows = self.rows.iter();
+        rows.filter(|(_, cells)| cells.get(status) == Some(&crashed))
+            .map(|(run, _)| *run)
+            .collect()
+    }
+
     /// Those of some runs that have no row.
     #[must_use]
     pub fn missing(&self, runs: Runs) -> Vec<Runs> {

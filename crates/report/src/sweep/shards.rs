@@ -103,6 +103,12 @@ impl Shards {
         })
     }
 
+    /// Whether there are some in a directory.
+    #[must_use]
+    pub fn are_in(directory: &Path) -> bool {
+        directory.join(FOLDER).join(PLAN).exists()
+    }
+
     /// The description of the sweep.
     #[must_use]
     pub fn plan(&self) -> &SweepPlan {
@@ -347,6 +353,42 @@ impl Shards {
             }
         }
         Ok(())
+    }
+
+    /// Forgets the rows of runs that have ended their process, and that these runs are suspects:
+    /// they are made again like runs that were never begun. Returns their number. No process may
+    /// make runs of the sweep meanwhile.
+    ///
+    /// # Errors
+    /// As [`Self::read`]; [`JournalError::File`]: a file could not be written or removed.
+    pub fn forget_crashed(&self) -> Result<u64, JournalError> {
+        let Some(all) = self.all() else { return Ok(0) };
+        let records = self.read(all)?;
+        let crashed = records.crashed();
+        if crashed.is_empty() {
+            return Ok(0);
+        }
+        let files = self.found(all)?;
+        let files = files
+            .iter()
+            .filter(|file| crashed.iter().any(|run| file.runs.has(*run)));
+        // The other rows are on the disk again before their files are removed.
+        let mut journal = self.begin(all)?;
+        for (run, cells) in &records.rows {
+            if crashed.binary_search(run).is_err() {
+                journal.append_cells(cells)?;
+            }
+        }
+        journal.finish()?;
+        for file in files {
+            let path = &file.path;
+            fs::remove_file(path).map_err(FileError::refused("remove", path))?;
+            if file.is_sealed {
+                // Only programs with the feature `parquet` write it.
+                let _ = fs::remove_file(path.with_extension("parquet"));
+            }
+        }
+        Ok(crashed.len() as u64)
     }
 
     /// Removes the folder if there is nothing in it but the plan.
