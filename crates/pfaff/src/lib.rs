@@ -19,6 +19,7 @@
 //! | [`mod@tolerance`] | many mechanisms with data within their tolerances |
 //! | [`mod@work_precision`] | error against run time |
 //! | [`memory`] | estimated memory |
+//! | [`forked`] | parallel work in a process that was forked |
 //! | [`error`] | reasons why there are no results |
 //! | `refusal`, `source` (feature `messages`) | these reasons in words for people; texts of files |
 
@@ -30,6 +31,7 @@ mod comparison;
 pub mod configuration;
 pub mod difference;
 pub mod error;
+pub mod forked;
 pub mod memory;
 pub mod prelude;
 #[cfg(feature = "messages")]
