@@ -1,5 +1,7 @@
 //! A scene by every method at many tolerances: error against run time.
 
+use std::sync::Arc;
+
 use pfaff::model::Tolerance;
 use pfaff::refusal::json;
 use pfaff::report::{Provenance, WorkPrecisionDocument};
@@ -7,8 +9,8 @@ use pfaff::work_precision::{Plan, Subject, overview, provenance};
 use pfaff::{Overrides, StudyError};
 use pyo3::prelude::*;
 
-use crate::fault::guarded;
 use crate::hearing::heard;
+use crate::options::budget;
 use crate::scene::Scene;
 
 /// Makes the runs of `pfaff work-precision`, and returns its document. `quick` are three
@@ -21,9 +23,10 @@ pub(crate) fn work_precision(
     quick: bool,
     all: bool,
 ) -> PyResult<String> {
-    guarded(py, || {
+    let scene = Arc::clone(&scene.0);
+    heard(py, move |hearing| {
         let fault = |e: StudyError| scene.fault(e);
-        let study = scene.assembled(Tolerance::default())?;
+        let study = scene.assembled(Tolerance::default(), budget(None)?)?;
         let study = study.prepare(&Overrides::default()).map_err(fault)?;
         let subject = Subject::of_study(study).map_err(fault)?;
         let plan = match (quick, all) {
@@ -31,10 +34,9 @@ pub(crate) fn work_precision(
             (false, true) => Plan::everything(),
             (false, false) => Plan::standard(),
         };
-        let compared = heard(|ends| {
-            let row = |_: &_| Ok::<(), StudyError>(());
-            subject.compare(&plan, &[], &ends, row).map_err(fault)
-        })?;
+        let ends = || hearing.has_ended();
+        let row = |_: &_| Ok::<(), StudyError>(());
+        let compared = subject.compare(&plan, &[], &ends, row).map_err(fault)?;
         let document = WorkPrecisionDocument {
             provenance: Provenance {
                 machine: provenance::machine(),

@@ -4,6 +4,7 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use pfaff::StudyError;
+use pfaff::forked::on_this_thread;
 use pfaff::refusal::{Refusal, json};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -40,17 +41,25 @@ pub(crate) fn wrong(message: String) -> Fault {
     Refusal::input(message).into()
 }
 
-/// Does the work without the interpreter, so that other threads of Python go on. A panic becomes
-/// an exception.
+impl Fault {
+    /// The exception.
+    pub(crate) fn raised(self, py: Python<'_>) -> PyErr {
+        match self {
+            Self::Refused(refusal) => exception(py, &refusal),
+            Self::Raised(raised) => raised,
+        }
+    }
+}
+
+/// Does short work, or work that asks Python on its way, on this thread and without the
+/// interpreter, so that other threads of Python run. A panic becomes an exception.
 pub(crate) fn guarded<T: Send>(
     py: Python<'_>,
     work: impl FnOnce() -> Result<T, Fault> + Send,
 ) -> PyResult<T> {
-    match py.detach(|| catch_unwind(AssertUnwindSafe(work))) {
-        Ok(Ok(result)) => Ok(result),
-        Ok(Err(Fault::Refused(refusal))) => Err(exception(py, &refusal)),
-        Ok(Err(Fault::Raised(raised))) => Err(raised),
-        Err(panic) => Err(internal(py, panic.as_ref())),
+    match py.detach(|| catch_unwind(AssertUnwindSafe(|| on_this_thread(work)))) {
+        Ok(outcome) => outcome.map_err(|fault| fault.raised(py)),
+        Err(panic) => Err(raised_by(py, panic.as_ref())),
     }
 }
 
@@ -65,7 +74,8 @@ pub(crate) fn exception(py: Python<'_>, refusal: &Refusal) -> PyErr {
     made(py, class, refusal.words(false).trim_end(), &document)
 }
 
-fn internal(py: Python<'_>, panic: &(dyn Any + Send)) -> PyErr {
+/// The exception of a panic.
+pub(crate) fn raised_by(py: Python<'_>, panic: &(dyn Any + Send)) -> PyErr {
     let message = panic.downcast_ref::<String>().map(String::as_str);
     let message = message.or_else(|| panic.downcast_ref::<&str>().copied());
     let words = format!(

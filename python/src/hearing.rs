@@ -1,46 +1,88 @@
 //! What long work hears of Python on its way: Ctrl-C, and callbacks that raise or ask it to end.
 
-use std::panic::resume_unwind;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant};
 
+use pfaff::forked::on_own_threads;
 use pfaff::refusal::Refusal;
 use pyo3::prelude::*;
 
-use crate::fault::Fault;
+use crate::fault::{Fault, guarded, raised_by};
 
 /// Time (ms) between two looks for signals.
 const BETWEEN: u64 = 20;
 
-/// Does work that asks `ends` often and is not asked for anything by Python: it goes on a thread of
-/// its own, and this one, on which alone Python hears signals, listens until it is done. An
-/// exception goes before its result.
-pub(crate) fn heard<T: Send>(
-    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<T, Fault> + Send,
-) -> Result<T, Fault> {
-    let hearing = Hearing::new();
-    let asked = || hearing.ends.load(Ordering::Relaxed);
-    let (ended, waits) = channel::<()>();
-    let done = thread::scope(|scope| {
-        let worker = thread::Builder::new().spawn_scoped(scope, || {
-            // Dropped at the end, also by a panic.
-            let _ended = ended;
-            work(&asked)
-        });
-        let worker = worker.map_err(|e| Refusal::stopped(format!("cannot start a thread: {e}")))?;
-        let between = Duration::from_millis(BETWEEN);
-        while waits.recv_timeout(between) == Err(RecvTimeoutError::Timeout) {
-            hearing.ends();
+/// Time that work has to end by itself after Ctrl-C: what asks often needs less, and has closed its
+/// files then. What does not ask is left to itself: its thread ends with it, or with the process.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// Stack (bytes) of a thread for work: that of a main thread of Linux. Only what is used is taken.
+const STACK: usize = 8 << 20;
+
+/// Does work on a thread of its own, without the interpreter, so that other threads of Python run.
+/// This thread, on which alone Python hears signals, listens until the work is done. An exception
+/// of Python goes before the result. A panic becomes an exception.
+pub(crate) fn heard<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(&Arc<Hearing>) -> Result<T, Fault> + Send + 'static,
+) -> PyResult<T> {
+    type Ended<T> = Result<Result<T, Fault>, Box<dyn Any + Send>>;
+    let hearing = Arc::new(Hearing::new());
+    let (done, waits) = channel::<Ended<T>>();
+    let own = Arc::clone(&hearing);
+    let job = move || {
+        let outcome = catch_unwind(AssertUnwindSafe(|| on_own_threads(|| work(&own))));
+        // After Ctrl-C no thread may wait for it.
+        let _ = done.send(outcome);
+    };
+    let listening = Arc::clone(&hearing);
+    let ended = py.detach(move || -> Result<Ended<T>, Fault> {
+        let worker = thread::Builder::new().stack_size(STACK).spawn(job);
+        worker.map_err(|e| Refusal::stopped(format!("cannot start a thread: {e}")))?;
+        let mut until: Option<Instant> = None;
+        loop {
+            match waits.recv_timeout(Duration::from_millis(BETWEEN)) {
+                Ok(ended) => return Ok(ended),
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(Refusal::stopped("its thread has ended".to_owned()).into());
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            if listening.ends() {
+                let until = *until.get_or_insert_with(|| Instant::now() + PATIENCE);
+                if Instant::now() >= until {
+                    let left = || Refusal::stopped("the work was left".to_owned()).into();
+                    return Err(listening.raised().map_or_else(left, Fault::from));
+                }
+            }
         }
-        worker.join().unwrap_or_else(|panic| resume_unwind(panic))
     });
-    match hearing.raised() {
-        Some(raised) => Err(raised.into()),
-        None => done,
+    if let Some(raised) = hearing.raised() {
+        return Err(raised);
     }
+    match ended {
+        Ok(Ok(Ok(result))) => Ok(result),
+        Ok(Ok(Err(fault))) | Err(fault) => Err(fault.raised(py)),
+        Ok(Err(panic)) => Err(raised_by(py, panic.as_ref())),
+    }
+}
+
+/// Does work that calls functions of Python, on the thread that calls, and that asks `ends` often.
+/// An exception of Python goes before the result.
+pub(crate) fn heard_here<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&Arc<Hearing>) -> Result<T, Fault> + Send,
+) -> PyResult<T> {
+    guarded(py, || {
+        let hearing = Arc::new(Hearing::new());
+        let done = work(&hearing);
+        hearing.raised().map_or(done, |raised| Err(raised.into()))
+    })
 }
 
 /// Hears signals and exceptions during one run.
@@ -67,7 +109,7 @@ impl Hearing {
 
     /// Whether the run has to end. Most calls only read a clock.
     pub(crate) fn ends(&self) -> bool {
-        if self.ends.load(Ordering::Relaxed) {
+        if self.has_ended() {
             return true;
         }
         let now = self.begun.elapsed().as_millis() as u64;
@@ -79,7 +121,7 @@ impl Hearing {
         if let Err(raised) = Python::attach(|py| py.check_signals()) {
             self.end(Some(raised));
         }
-        self.ends.load(Ordering::Relaxed)
+        self.has_ended()
     }
 
     /// Whether the run has to end, as far as that was heard on another thread.

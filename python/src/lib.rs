@@ -38,7 +38,7 @@ mod _pfaff {
     #[pymodule_export]
     use super::scene::{Scene, nearest};
     #[pymodule_export]
-    use super::sweep::{Sweep, merge, sweep_columns};
+    use super::sweep::{Sweep, forget_crashed, merge, sweep_columns};
 
     #[pymodule_export]
     use super::comparison::work_precision;

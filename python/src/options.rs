@@ -5,6 +5,7 @@ use std::num::NonZeroUsize;
 use pfaff::ConfigurationAnalysis;
 use pfaff::dynamics::plan::{Reactions, Rows};
 use pfaff::dynamics::{Method, Wanted};
+use pfaff::memory::{Budget, Bytes};
 use pfaff::model::{ConstraintId, Mechanism, System, Tolerance};
 use pfaff::scene::nearest;
 use pfaff::solvability::{Allowed, Choice, Compliance, NormWeights};
@@ -31,6 +32,7 @@ pub(crate) struct RunOptions {
     angle_tolerance: Option<f64>,
     /// Names of joints and drives; `None` for all.
     reactions: Option<Vec<String>>,
+    max_memory: Option<Size>,
 }
 
 impl RunOptions {
@@ -50,6 +52,10 @@ impl RunOptions {
 
     pub(crate) fn tolerance(&self) -> Tolerance {
         tolerance(self.tolerance, self.angle_tolerance)
+    }
+
+    pub(crate) fn budget(&self) -> Result<Budget, Fault> {
+        budget(self.max_memory.as_ref())
     }
 
     pub(crate) fn wanted(&self) -> Wanted {
@@ -73,6 +79,31 @@ impl RunOptions {
         }
         Ok(())
     }
+}
+
+/// A size: bytes, or a text such as `4GB`.
+#[derive(FromPyObject, Clone)]
+pub(crate) enum Size {
+    #[pyo3(transparent)]
+    Bytes(u64),
+    #[pyo3(transparent)]
+    Words(String),
+}
+
+/// What may be taken of the memory: this size, or what the machine has left.
+pub(crate) fn budget(limit: Option<&Size>) -> Result<Budget, Fault> {
+    let limit = match limit {
+        None => None,
+        Some(Size::Bytes(bytes)) => Some(Bytes(*bytes)),
+        Some(Size::Words(words)) => {
+            let read = words.parse::<Bytes>();
+            Some(read.map_err(|e| wrong(format!("max_memory: {e}")))?)
+        }
+    };
+    Ok(Budget {
+        limit,
+        option: "max_memory",
+    })
 }
 
 fn method(name: &str) -> Result<Method, Fault> {

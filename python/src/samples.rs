@@ -1,5 +1,7 @@
 //! A scene whose data vary within their tolerances: the document of the samples, and its table.
 
+use std::sync::Arc;
+
 use numpy::{IntoPyArray, PyArray1};
 use pfaff::refusal::{Refusal, json};
 use pfaff::tolerance::{
@@ -7,10 +9,10 @@ use pfaff::tolerance::{
 };
 use pyo3::prelude::*;
 
-use crate::fault::{Fault, guarded, wrong};
-use crate::hearing::heard;
-use crate::options::{threads, tolerance as stated};
-use crate::scene::{REGISTRY, Scene};
+use crate::fault::{Fault, wrong};
+use crate::hearing::{Hearing, heard};
+use crate::options::{Size, budget, threads, tolerance as stated};
+use crate::scene::{REGISTRY, Scene, Source};
 
 /// What samples are made of.
 #[derive(FromPyObject)]
@@ -24,6 +26,7 @@ pub(crate) struct SampleOptions {
     threads: Option<usize>,
     tolerance: Option<f64>,
     angle_tolerance: Option<f64>,
+    max_memory: Option<Size>,
 }
 
 /// A column of the table: words or numbers, NaN for what does not exist.
@@ -41,7 +44,8 @@ pub(crate) fn tolerance(
     scene: &Scene,
     options: SampleOptions,
 ) -> PyResult<(String, Vec<(String, Values)>)> {
-    let (document, columns) = guarded(py, || sampled(scene, &options))?;
+    let scene = Arc::clone(&scene.0);
+    let (document, columns) = heard(py, move |hearing| sampled(&scene, &options, hearing))?;
     let values = |of: Column| match of {
         Column::Words(words) => Values::Words(words),
         Column::Numbers(numbers) => Values::Numbers(numbers.into_pyarray(py).unbind()),
@@ -56,14 +60,16 @@ enum Column {
 }
 
 fn sampled(
-    scene: &Scene,
+    scene: &Source,
     options: &SampleOptions,
+    hearing: &Hearing,
 ) -> Result<(String, Vec<(String, Column)>), Fault> {
     if !(options.t >= 0.0 && options.t.is_finite()) {
         return Err(wrong(format!("t is {}, need a time ≥ 0", options.t)));
     }
     let within = stated(options.tolerance, options.angle_tolerance);
-    let assembled = scene.assembled(within)?;
+    let budget = budget(options.max_memory.as_ref())?;
+    let assembled = scene.assembled(within, budget)?;
     let failed = |e: ToleranceError| failure(scene, e);
     let vary = match &options.vary[..] {
         [] => None,
@@ -81,7 +87,9 @@ fn sampled(
         seed: options.seed,
         threads: options.threads.map(threads).transpose()?,
     };
-    let found = heard(|ends| study.run(&asked, ends, |_| ()).map_err(failed))?;
+    budget.allow(study.memory(options.runs), "keeping these samples")?;
+    let ends = || hearing.has_ended();
+    let found = study.run(&asked, ends, |_| ()).map_err(failed)?;
     Ok((json(&found.document)?, table(&study, &found)))
 }
 
@@ -113,7 +121,7 @@ fn table(study: &ToleranceStudy<'_>, found: &ToleranceResult) -> Vec<(String, Co
     columns
 }
 
-fn failure(scene: &Scene, error: ToleranceError) -> Fault {
+fn failure(scene: &Source, error: ToleranceError) -> Fault {
     match error {
         ToleranceError::Study(e) => scene.fault(e),
         e if e.is_input() => Refusal::input(e.to_string()).coded(e.code()).into(),

@@ -8,6 +8,8 @@ use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pfaff::configuration::KeptAnalysis;
 use pfaff::dynamics::linearise::LineariseOptions;
 use pfaff::import::{Axes, Base, FixedLinks, Folder, Options};
+use pfaff::memory::{Budget, of_reading};
+use pfaff::model::codes::Code;
 use pfaff::model::{Mechanism, Registry, System, Tolerance};
 use pfaff::refusal::{Refusal, json};
 use pfaff::report::documents::{EventDocument, LinearisationDocument};
@@ -15,15 +17,16 @@ use pfaff::report::{
     AnalysisDocument, Column as ReportColumn, Origin, OutputDirectory, ReactionColumn, Trajectory,
 };
 use pfaff::scene::{KeyError, Template};
+use pfaff::solvability::memory_of_verdicts;
 use pfaff::study::EndedRun;
 use pfaff::{AssembledScene, Overrides, Study, StudyError, source};
 use pyo3::prelude::*;
 
-use crate::analysis::{Analysis, plain};
-use crate::fault::{Fault, guarded, wrong};
+use crate::analysis::{Analysis, Configured, plain};
+use crate::fault::{Fault, wrong};
 use crate::functions::Functions;
-use crate::hearing::{Hearing, heard};
-use crate::options::{Choose, RunOptions, rows_from_zero, tolerance, unknown};
+use crate::hearing::{Hearing, heard, heard_here};
+use crate::options::{Choose, RunOptions, Size, budget, rows_from_zero, tolerance, unknown};
 use crate::run::{Column, Recorded, Run, by_rows};
 
 pub(crate) static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standard);
@@ -76,40 +79,46 @@ type Known = Option<(Tolerance, Arc<Judged>)>;
 
 /// The text of a scene. It does not change; what was read from it is kept.
 #[pyclass(frozen, module = "pfaff._pfaff")]
-pub(crate) struct Scene {
-    #[pyo3(get)]
+pub(crate) struct Scene(pub(crate) Arc<Source>);
+
+impl Scene {
+    fn of(name: String, text: String) -> Self {
+        let known = Mutex::new(None);
+        Self(Arc::new(Source { name, text, known }))
+    }
+}
+
+/// A text with its name in messages, and what was read from it.
+pub(crate) struct Source {
     pub(crate) name: String,
-    #[pyo3(get)]
     pub(crate) text: String,
     known: Mutex<Known>,
 }
 
-impl Scene {
-    fn of(name: String, text: String) -> Self {
-        Self {
-            name,
-            text,
-            known: Mutex::new(None),
-        }
-    }
-
+impl Source {
     /// An error with its places in the text.
     pub(crate) fn fault(&self, error: StudyError) -> Fault {
         Refusal::of((&self.name, &self.text), error).into()
     }
 
-    pub(crate) fn assembled(&self, tolerance: Tolerance) -> Result<AssembledScene, Fault> {
-        AssembledScene::read(&self.name, &self.text, &REGISTRY)
-            .and_then(|assembled| assembled.stating(tolerance))
-            .map_err(|e| self.fault(e))
+    pub(crate) fn assembled(
+        &self,
+        tolerance: Tolerance,
+        budget: Budget,
+    ) -> Result<AssembledScene, Fault> {
+        Ok(budget.assembled((&self.name, &self.text), &REGISTRY, tolerance)?)
     }
 
-    fn prepared(&self, tolerance: Tolerance, drop: Option<Vec<usize>>) -> Result<Judged, Fault> {
+    fn prepared(
+        &self,
+        (tolerance, budget): (Tolerance, Budget),
+        drop: Option<Vec<usize>>,
+    ) -> Result<Judged, Fault> {
         let overrides = Overrides {
             drop,
             ..Overrides::default()
         };
-        let error = match self.assembled(tolerance)?.prepare(&overrides) {
+        let error = match self.assembled(tolerance, budget)?.prepare(&overrides) {
             Ok(study) => return Ok(Judged::Moves(Box::new(study))),
             Err(e) => e,
         };
@@ -117,7 +126,7 @@ impl Scene {
             return Err(self.fault(error));
         };
         let refusal = Refusal::of((&self.name, &self.text), error);
-        let mut assembled = self.assembled(tolerance)?;
+        let mut assembled = self.assembled(tolerance, budget)?;
         let kept = assembled.analyse(overrides.drop.as_deref());
         let kept = kept.map_err(|e| self.fault(e))?.kept();
         Ok(Judged::Stands {
@@ -129,30 +138,49 @@ impl Scene {
     }
 
     /// The scene with its start, read and assembled once.
-    fn judged(&self, tolerance: Tolerance, drop: Option<Vec<usize>>) -> Result<Arc<Judged>, Fault> {
+    fn judged(
+        &self,
+        (tolerance, budget): (Tolerance, Budget),
+        drop: Option<Vec<usize>>,
+    ) -> Result<Arc<Judged>, Fault> {
         if drop.is_some() {
-            return Ok(Arc::new(self.prepared(tolerance, drop)?));
+            return Ok(Arc::new(self.prepared((tolerance, budget), drop)?));
         }
         let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((of, judged)) = known().as_ref()
-            && *of == tolerance
-        {
-            return Ok(Arc::clone(judged));
+        let found = known().as_ref().and_then(|(of, judged)| {
+            let is_same = *of == tolerance;
+            is_same.then(|| Arc::clone(judged))
+        });
+        if let Some(judged) = found {
+            // A limit refuses the same scenes whether or not they are known.
+            if budget.limit.is_some() {
+                let (_, mechanism) = judged.parts();
+                let verdicts = memory_of_verdicts(mechanism, pfaff::threads());
+                let verdicts = verdicts.map_err(|e| self.fault(e.into()))?;
+                let all = of_reading(self.text.len()).saturating_add(verdicts);
+                budget.allow(all, "deciding the ranks of this scene")?;
+            }
+            return Ok(judged);
         }
         // Two threads may both do this; they find the same.
-        let judged = Arc::new(self.prepared(tolerance, None)?);
+        let judged = Arc::new(self.prepared((tolerance, budget), None)?);
         *known() = Some((tolerance, Arc::clone(&judged)));
         Ok(judged)
+    }
+
+    /// The scene with its start, within the memory that the machine has left.
+    fn start(&self) -> Result<Arc<Judged>, Fault> {
+        self.judged((Tolerance::default(), budget(None)?), None)
     }
 
     /// The scene with functions of Python in it, for one run.
     fn with_functions(
         &self,
         functions: Functions,
-        (tolerance, overrides): (Tolerance, &Overrides),
+        (options, overrides): (&RunOptions, &Overrides),
         hearing: &Arc<Hearing>,
     ) -> Result<Study, Fault> {
-        let mut assembled = self.assembled(tolerance)?;
+        let mut assembled = self.assembled(options.tolerance(), options.budget()?)?;
         if !functions.is_empty() {
             let mut scene = assembled.scene;
             functions.put_into(&mut scene.description, hearing)?;
@@ -161,27 +189,31 @@ impl Scene {
         assembled.prepare(overrides).map_err(|e| self.fault(e))
     }
 
-    fn recorded(
-        &self,
-        (options, functions): (&RunOptions, Functions),
-        (numbers_of_choice, choices): (bool, &[Choose]),
-        hearing: &Arc<Hearing>,
-        [on_event, on_row]: [Option<&Py<PyAny>>; 2],
-    ) -> Result<Recorded, Fault> {
+    fn recorded(&self, asked: RunAsked, hearing: &Arc<Hearing>) -> Result<Recorded, Fault> {
+        let RunAsked {
+            options,
+            numbers_of_choice,
+            choices,
+            functions,
+            on_event,
+            on_row,
+        } = asked;
         let overrides = options.overrides()?;
+        let budget = options.budget()?;
         let (judged, own);
         let study = if functions.is_empty() {
-            judged = self.judged(options.tolerance(), overrides.drop.clone())?;
+            judged = self.judged((options.tolerance(), budget), overrides.drop.clone())?;
             judged.study()?
         } else {
-            let of_scene = (options.tolerance(), &overrides);
-            own = self.with_functions(functions, of_scene, hearing)?;
+            own = self.with_functions(functions, (&options, &overrides), hearing)?;
             &own
         };
+        let of_run = study.memory(self.text.len()).map_err(|e| self.fault(e))?;
+        budget.allow(of_run, "this run")?;
         let start = study.analyse(0.0, None).map_err(|e| self.fault(e))?;
         options.check_names(&start)?;
         let mut wanted = options.wanted();
-        for choice in choices {
+        for choice in &choices {
             let choice = choice.choice(&|name| study.reaction(name))?;
             let named = start.named(&choice).map_err(|e| self.fault(e))?;
             wanted.choices.push(named);
@@ -198,6 +230,12 @@ impl Scene {
             ..Recorded::default()
         };
         let space = mechanism.space();
+        let mut room = Room {
+            expected: (motion.t_end / motion.output_step).ceil() + 1.0,
+            budget,
+            of_run,
+            refused: None,
+        };
         let stop = || hearing.ends();
         let ended = study.show(&motion, &wanted, &stop, |sample, numbers| {
             rows.t.push(sample.t);
@@ -215,21 +253,25 @@ impl Scene {
                 own.extend(numbers.groups.as_chosen());
             }
             for event in sample.events {
-                if let Some(on_event) = on_event {
+                if let Some(on_event) = &on_event {
                     let document =
                         plain(&EventDocument::new(event, mechanism.layout())).unwrap_or_default();
                     hearing.call(|py| on_event.call1(py, (document,)));
                 }
             }
-            if let Some(on_row) = on_row {
+            if let Some(on_row) = &on_row {
                 hearing.call(|py| on_row.call1(py, (sample.t,)));
             }
-            if hearing.ends() {
+            room.make(&mut rows);
+            if room.refused.is_some() || hearing.ends() {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
         });
+        if let Some(refusal) = room.refused {
+            return Err(refusal.into());
+        }
         let EndedRun {
             document,
             stopped,
@@ -249,6 +291,62 @@ impl Scene {
         rows.stopped = stopped.map(|error| Refusal::of((&self.name, &self.text), error.into()));
         rows.document = json(&document)?;
         Ok(rows)
+    }
+}
+
+/// A run that is asked for.
+struct RunAsked {
+    options: RunOptions,
+    numbers_of_choice: bool,
+    choices: Vec<Choose>,
+    functions: Functions,
+    on_event: Option<Py<PyAny>>,
+    on_row: Option<Py<PyAny>>,
+}
+
+/// Room for the rows of a run, which is refused before it is taken.
+struct Room {
+    /// Number of rows without those of events.
+    expected: f64,
+    budget: Budget,
+    /// Memory (bytes) of the run without its rows.
+    of_run: usize,
+    refused: Option<Refusal>,
+}
+
+impl Room {
+    /// Makes room for all rows after the first one, and later for one more.
+    fn make(&mut self, rows: &mut Recorded) {
+        let count = rows.t.len();
+        let fixed = [
+            &mut rows.t,
+            &mut rows.q,
+            &mut rows.v,
+            &mut rows.trajectory,
+            &mut rows.reactions,
+        ];
+        let chosen = rows.chosen.iter_mut().map(|(_, numbers)| numbers);
+        let mut tables: Vec<&mut Vec<f64>> = fixed.into_iter().chain(chosen).collect();
+        if count == 1 {
+            let width: usize = tables.iter().map(|table| table.len()).sum();
+            let bytes = self.expected * (width * size_of::<f64>()) as f64;
+            let all = self.of_run.saturating_add(bytes as usize);
+            if let Err(refusal) = self.budget.allow(all, "this run with its rows") {
+                self.refused = Some(refusal);
+                return;
+            }
+            for table in &mut tables {
+                // Without it the table grows step by step.
+                let _ = table.try_reserve_exact(table.len().saturating_mul(self.expected as usize));
+            }
+        }
+        for table in tables {
+            let width = table.len() / count.max(1);
+            if table.try_reserve(width).is_err() {
+                let words = format!("the memory does not suffice for more than {count} rows");
+                self.refused = Some(Refusal::stopped(words).coded(const { Code::new(7) }));
+            }
+        }
     }
 }
 
@@ -281,10 +379,20 @@ impl Scene {
         Self::of(name, text)
     }
 
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    #[getter]
+    fn text(&self) -> &str {
+        &self.0.text
+    }
+
     /// Reads a file.
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let (name, text) = guarded(py, || Ok(source::of_file(&path)?))?;
+        let (name, text) = heard(py, move |_| Ok(source::of_file(&path)?))?;
         Ok(Self::of(name, text))
     }
 
@@ -295,21 +403,21 @@ impl Scene {
     #[allow(clippy::too_many_arguments)]
     fn imported(
         py: Python<'_>,
-        format: &str,
+        format: String,
         path: PathBuf,
         text: Option<String>,
-        base: &str,
+        base: String,
         fixed: bool,
         snap: bool,
         keyframe: Option<String>,
         pose: Vec<(String, f64)>,
         loops: Option<PathBuf>,
     ) -> PyResult<(Self, Vec<String>, Vec<Omission>)> {
-        guarded(py, || {
+        let made = heard(py, move |_| {
             let base = Base::ALL
                 .into_iter()
                 .find(|known| known.name() == base)
-                .ok_or_else(|| unknown("base", base, &Base::ALL.map(Base::name)))?;
+                .ok_or_else(|| unknown("base", &base, &Base::ALL.map(Base::name)))?;
             let folder = match &text {
                 Some(_) => Folder::None,
                 None => Folder::of(&path),
@@ -342,9 +450,10 @@ impl Scene {
             let omissions = imported.omissions.into_iter();
             let omissions = omissions.map(|o| (o.kind.to_owned(), o.subject, o.line));
             let stem = Path::new(&name).with_extension("toml");
-            let scene = Self::of(stem.display().to_string(), imported.scene);
+            let scene = (stem.display().to_string(), imported.scene);
             Ok((scene, imported.remarks, omissions.collect()))
-        })
+        });
+        made.map(|((name, text), remarks, omissions)| (Self::of(name, text), remarks, omissions))
     }
 
     /// The same scene with other numbers or expressions.
@@ -354,12 +463,13 @@ impl Scene {
         keys: Vec<String>,
         expressions: Vec<String>,
     ) -> PyResult<Self> {
-        let text = guarded(py, || {
+        let own = Arc::clone(&self.0);
+        let text = heard(py, move |_| {
             let of_keys: Vec<&str> = keys.iter().map(String::as_str).collect();
-            let template = match Template::new(&self.text, &of_keys) {
+            let template = match Template::new(&own.text, &of_keys) {
                 Ok(template) => template,
                 // Its reader says what is wrong.
-                Err(KeyError::NotToml) => return Ok(self.text.clone()),
+                Err(KeyError::NotToml) => return Ok(own.text.clone()),
                 Err(e) => return Err(Refusal::input(e.to_string()).coded(e.code()).into()),
             };
             if keys.len() != expressions.len() {
@@ -368,19 +478,24 @@ impl Scene {
             let expressions: Vec<&str> = expressions.iter().map(String::as_str).collect();
             Ok(template.with_expressions(&expressions))
         })?;
-        Ok(Self::of(self.name.clone(), text))
+        Ok(Self::of(self.0.name.clone(), text))
     }
 
     /// Reads and assembles the scene; raises what is wrong with it.
-    fn check(&self, py: Python<'_>) -> PyResult<()> {
-        guarded(py, || self.judged(Tolerance::default(), None).map(|_| ()))
+    fn check(&self, py: Python<'_>, max_memory: Option<Size>) -> PyResult<()> {
+        let own = Arc::clone(&self.0);
+        heard(py, move |_| {
+            let budget = budget(max_memory.as_ref())?;
+            own.judged((Tolerance::default(), budget), None).map(|_| ())
+        })
     }
 
     /// The name that the scene gives itself, the names of its bodies, and of its joints and drives
     /// in the order of the rows.
     fn names(&self, py: Python<'_>) -> PyResult<(String, Vec<String>, Vec<String>)> {
-        guarded(py, || {
-            let judged = self.judged(Tolerance::default(), None)?;
+        let own = Arc::clone(&self.0);
+        heard(py, move |_| {
+            let judged = own.start()?;
             let (scene, mechanism) = judged.parts();
             let bodies = mechanism.bodies().iter().map(|body| body.name.clone());
             let groups = mechanism.layout().groups.iter();
@@ -390,7 +505,7 @@ impl Scene {
     }
 
     /// Analyses a configuration.
-    #[pyo3(signature = (t, length, angle, drop))]
+    #[pyo3(signature = (t, length, angle, drop, max_memory))]
     fn analyse(
         &self,
         py: Python<'_>,
@@ -398,26 +513,27 @@ impl Scene {
         length: Option<f64>,
         angle: Option<f64>,
         drop: Option<Vec<usize>>,
+        max_memory: Option<Size>,
     ) -> PyResult<Analysis> {
-        guarded(py, || {
+        let own = Arc::clone(&self.0);
+        let of = heard(py, move |hearing| {
             if !(t >= 0.0 && t.is_finite()) {
                 return Err(wrong(format!("t is {t}, need a time ≥ 0")));
             }
             let drop = rows_from_zero(drop.as_deref())?;
-            let judged = self.judged(tolerance(length, angle), drop.clone())?;
+            let within = (tolerance(length, angle), budget(max_memory.as_ref())?);
+            let judged = own.judged(within, drop.clone())?;
             let kept = match judged.as_ref() {
                 Judged::Stands { kept, .. } if t == 0.0 => kept.clone(),
                 judged => {
-                    let study = judged.study()?;
-                    let analysed = |ends: &(dyn Fn() -> bool + Sync)| {
-                        let found = study.analyse_until(t, drop.as_deref(), ends);
-                        Ok(found.map_err(|e| self.fault(e))?.kept())
-                    };
-                    heard(analysed)?
+                    let ends = || hearing.has_ended();
+                    let found = judged.study()?.analyse_until(t, drop.as_deref(), &ends);
+                    found.map_err(|e| own.fault(e))?.kept()
                 }
             };
-            Ok(Analysis::new(judged, kept))
-        })
+            Ok(Configured { of: judged, kept })
+        })?;
+        Ok(Analysis::new(of))
     }
 
     /// Runs the scene. With `numbers_of_choice` numbers that are not determined on their stretch of
@@ -437,17 +553,28 @@ impl Scene {
         drives: Vec<(String, Py<PyAny>)>,
         forces: Vec<(String, Py<PyAny>)>,
     ) -> PyResult<Run> {
-        let recorded = guarded(py, || {
-            let hearing = Arc::new(Hearing::new());
-            let callbacks = [on_event.as_ref(), on_row.as_ref()];
-            let asked = (&options, Functions { drives, forces });
-            let chosen = (numbers_of_choice, choices.as_slice());
-            let recorded = self.recorded(asked, chosen, &hearing, callbacks);
-            match hearing.raised() {
-                Some(raised) => Err(raised.into()),
-                None => recorded,
-            }
-        })?;
+        let own = Arc::clone(&self.0);
+        let asked = RunAsked {
+            options,
+            numbers_of_choice,
+            choices,
+            functions: Functions { drives, forces },
+            on_event,
+            on_row,
+        };
+        let recorded = if !asked.functions.is_empty() {
+            heard_here(py, |hearing| own.recorded(asked, hearing))?
+        } else if asked.on_event.is_some() || asked.on_row.is_some() {
+            // Ctrl-C is heard while it is assembled, too.
+            let (own, options) = (Arc::clone(&own), asked.options.clone());
+            heard(py, move |_| {
+                let within = (options.tolerance(), options.budget()?);
+                own.judged(within, options.overrides()?.drop)
+            })?;
+            heard_here(py, |hearing| self.0.recorded(asked, hearing))?
+        } else {
+            heard(py, move |hearing| own.recorded(asked, hearing))?
+        };
         Ok(Run::new(py, recorded))
     }
 
@@ -465,20 +592,25 @@ impl Scene {
         drives: Vec<(String, Py<PyAny>)>,
         forces: Vec<(String, Py<PyAny>)>,
     ) -> PyResult<String> {
-        guarded(py, || {
-            let hearing = Arc::new(Hearing::new());
+        let own = Arc::clone(&self.0);
+        let functions = Functions { drives, forces };
+        let is_alone = functions.is_empty();
+        let work = move |hearing: &Arc<Hearing>| {
             let overrides = options.overrides()?;
-            let of_scene = (options.tolerance(), &overrides);
-            let functions = Functions { drives, forces };
-            let mut study = self.with_functions(functions, of_scene, &hearing)?;
+            let mut study = own.with_functions(functions, (&options, &overrides), hearing)?;
             if let (Some(step), Some(motion)) = (options.output_step, &mut study.options) {
                 motion.output_step = step;
             }
+            let of_run = study.memory(own.text.len()).map_err(|e| own.fault(e))?;
+            options.budget()?.allow(of_run, "this run")?;
             let choices = choices.iter();
             let choices = choices.map(|choice| choice.choice(&|name| study.reaction(name)));
             study.choices = choices.collect::<Result<_, _>>()?;
+            if hearing.ends() {
+                return Err(own.fault(StudyError::Interrupted));
+            }
             let place = OutputDirectory::create(&directory).and_then(OutputDirectory::exclusive);
-            let place = place.map_err(|e| self.fault(e.into()))?;
+            let place = place.map_err(|e| own.fault(e.into()))?;
             let origin = Origin {
                 command: "called from Python".to_owned(),
                 ..Origin::default()
@@ -489,31 +621,41 @@ impl Scene {
                 _ => ControlFlow::Continue(()),
             };
             let outcome = study.simulate_as(&origin, &place, &stop, go_on);
-            if let Some(raised) = hearing.raised() {
-                return Err(raised.into());
-            }
-            Ok(json(&outcome.map_err(|e| self.fault(e))?)?)
-        })
+            Ok(json(&outcome.map_err(|e| own.fault(e))?)?)
+        };
+        if is_alone {
+            heard(py, work)
+        } else {
+            heard_here(py, work)
+        }
     }
 
     /// C, the diagonal of M, Γ, Q, b and Φ at coordinates and velocities; those of the start if
     /// they are `None`.
-    #[pyo3(signature = (q, v, t))]
+    #[pyo3(signature = (q, v, t, max_memory))]
     fn matrices(
         &self,
         py: Python<'_>,
         q: Option<Vec<f64>>,
         v: Option<Vec<f64>>,
         t: f64,
+        max_memory: Option<Size>,
     ) -> PyResult<Matrices> {
-        let (c, n, vectors) = guarded(py, || {
-            let judged = self.judged(Tolerance::default(), None)?;
+        let own = Arc::clone(&self.0);
+        let (c, n, vectors) = heard(py, move |_| {
+            let budget = budget(max_memory.as_ref())?;
+            let judged = own.judged((Tolerance::default(), budget), None)?;
             let (own_q, own_v) = match judged.as_ref() {
                 Judged::Moves(study) => (&study.prepared.q, &study.prepared.v),
                 Judged::Stands { kept, .. } => (&kept.state.q, &kept.state.v),
             };
             let (_, mechanism) = judged.parts();
             let layout = mechanism.layout();
+            // C and M, both dense.
+            let rows = layout.rows();
+            let bytes = (rows.saturating_add(layout.n_v)).saturating_mul(layout.n_v);
+            let bytes = bytes.saturating_mul(size_of::<f64>());
+            budget.allow(bytes, "this set of dense matrices")?;
             let q = numbers("q", q, own_q, (layout.n_q, "coordinates"))?;
             let v = numbers("v", v, own_v, (layout.n_v, "velocities"))?;
             if !t.is_finite() {
@@ -527,9 +669,13 @@ impl Scene {
             mechanism.twist(&v, &mut s);
             mechanism.gamma(&mut s);
             mechanism.force(&mut s);
-            let dense = layout.dense(&s);
-            let rows = layout.rows();
-            let c: Vec<f64> = (0..rows).flat_map(|i| dense.row(i).to_vec()).collect();
+            let mut c = Vec::new();
+            let reserved = c.try_reserve_exact(rows * layout.n_v);
+            reserved.map_err(|e| Refusal::stopped(e.to_string()).coded(const { Code::new(7) }))?;
+            c.resize(rows * layout.n_v, 0.0);
+            for (i, row) in c.chunks_exact_mut(layout.n_v.max(1)).enumerate() {
+                layout.scatter_row(&s, i, row);
+            }
             let mass = mechanism.mass().to_vec();
             Ok((c, rows, [mass, s.gamma, s.force, s.b, s.phi]))
         })?;
@@ -551,20 +697,20 @@ impl Scene {
         coordinates: Vec<String>,
         follow: Vec<String>,
     ) -> PyResult<String> {
-        guarded(py, || {
+        let own = Arc::clone(&self.0);
+        heard(py, move |hearing| {
             if !(t >= 0.0 && t.is_finite()) {
                 return Err(wrong(format!("t is {t}, need a time ≥ 0")));
             }
-            let judged = self.judged(Tolerance::default(), None)?;
+            let judged = own.start()?;
             let study = judged.study()?;
             let options = LineariseOptions {
                 coordinates,
                 follow,
             };
-            let found = heard(|ends| {
-                let found = study.linearise_until(t, &options, ends);
-                found.map_err(|e| self.fault(e))
-            })?;
+            let ends = || hearing.has_ended();
+            let found = study.linearise_until(t, &options, &ends);
+            let found = found.map_err(|e| own.fault(e))?;
             let modes = found.modes();
             let name = study.scene.name();
             Ok(json(&LinearisationDocument::new(

@@ -1,6 +1,7 @@
 //! Many runs of one scene, made in shards and read as columns.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -14,7 +15,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyList;
 
 use crate::fault::{Fault, guarded, wrong};
-use crate::hearing::Hearing;
+use crate::hearing::{Hearing, heard};
 use crate::scene::REGISTRY;
 
 /// Time between two looks for signals and for a wish to stop.
@@ -25,7 +26,10 @@ const REPORT: Duration = Duration::from_millis(100);
 
 /// A scene and what is varied in it.
 #[pyclass(frozen, module = "pfaff._pfaff")]
-pub(crate) struct Sweep {
+pub(crate) struct Sweep(Arc<Described>);
+
+/// A sweep with the text of its scene.
+struct Described {
     name: String,
     text: String,
     of: pfaff::sweep::Sweep<'static>,
@@ -62,7 +66,7 @@ impl Sweep {
         vary: Vec<String>,
         keep_rows: bool,
     ) -> PyResult<Self> {
-        guarded(py, || {
+        heard(py, move |_| {
             let axes = vary.iter().map(|text| text.parse::<Axis>());
             let axes = axes
                 .collect::<Result<Vec<_>, _>>()
@@ -70,24 +74,25 @@ impl Sweep {
             let of = pfaff::sweep::Sweep::read(&name, &text, &REGISTRY, axes);
             let of = of.map_err(|e| refused((&name, &text), e))?;
             let of = if keep_rows { of.keeping_rows() } else { of };
-            Ok(Self { name, text, of })
+            Ok(Self(Arc::new(Described { name, text, of })))
         })
     }
 
     /// Number of runs of all shards.
     #[getter]
     fn runs(&self) -> u64 {
-        self.of.runs()
+        self.0.of.runs()
     }
 
     /// Makes a run without writing anything, and returns how long that took (s).
     fn seconds(&self, py: Python<'_>, run: u64) -> PyResult<f64> {
-        guarded(py, || {
-            if !(1..=self.of.runs()).contains(&run) {
+        let own = Arc::clone(&self.0);
+        heard(py, move |_| {
+            if !(1..=own.of.runs()).contains(&run) {
                 return Err(wrong(format!("there is no run {run}")));
             }
             let begun = Instant::now();
-            drop(self.of.row(run));
+            drop(own.of.row(run));
             Ok(begun.elapsed().as_secs_f64())
         })
     }
@@ -97,14 +102,14 @@ impl Sweep {
         guarded(py, || {
             // Nothing was begun, or what was begun is judged when runs are made.
             let known = Shards::find(&directory).and_then(|shards| shards.sealed());
-            Ok(Shard::number(self.of.runs(), &known.unwrap_or_default()))
+            Ok(Shard::number(self.0.of.runs(), &known.unwrap_or_default()))
         })
     }
 
     /// Which of n shards are not finished.
     fn unfinished(&self, py: Python<'_>, directory: PathBuf, n: u64) -> PyResult<Vec<u64>> {
         guarded(py, || {
-            let all = self.of.runs();
+            let all = self.0.of.runs();
             let known = Shards::find(&directory).and_then(|shards| shards.sealed());
             let known = known.unwrap_or_default();
             let mut left = Vec::new();
@@ -164,10 +169,10 @@ impl Sweep {
                 let interrupted = move || hearing.has_ended();
                 let directory = &directory;
                 let work = move || {
-                    let outcome = self.of.run_into(directory, &settings, interrupted, note);
+                    let outcome = self.0.of.run_into(directory, &settings, interrupted, note);
                     // Somebody waits for it.
                     let _ = done.send(());
-                    outcome.map_err(|e| refused((&self.name, &self.text), e))
+                    outcome.map_err(|e| refused((&self.0.name, &self.0.text), e))
                 };
                 // Signals are heard on this thread alone, which may be the main one.
                 let worker = scope.spawn(work);
@@ -193,10 +198,17 @@ impl Sweep {
     }
 }
 
+/// Forgets the rows of runs that have ended their process, so that they are made again. Returns
+/// their number.
+#[pyfunction]
+pub(crate) fn forget_crashed(py: Python<'_>, directory: PathBuf) -> PyResult<u64> {
+    heard(py, move |_| Ok(pfaff::sweep::forget_crashed(&directory)?))
+}
+
 /// Writes the tables of what is in some directories. Returns the summary.
 #[pyfunction]
 pub(crate) fn merge(py: Python<'_>, directories: Vec<PathBuf>, into: PathBuf) -> PyResult<String> {
-    guarded(py, || {
+    heard(py, move |_| {
         let merged = pfaff::sweep::merge(&directories, &into).map_err(Fault::from)?;
         Ok(json(&merged.document)?)
     })
@@ -209,7 +221,7 @@ type Columns = Vec<(String, Py<PyAny>)>;
 /// some are unknown, numbers, and lists of texts.
 #[pyfunction]
 pub(crate) fn sweep_columns(py: Python<'_>, directory: PathBuf) -> PyResult<(String, Columns)> {
-    let (document, records) = guarded(py, || {
+    let (document, records) = heard(py, move |_| {
         let records = Records::merged(&[&directory]).map_err(SweepError::from)?;
         Ok((json(&SweepDocument::new(&records, Extent::Whole))?, records))
     })?;

@@ -205,6 +205,11 @@ HOSTILE: list[tuple[str, Any]] = [
     ("no method", lambda s: s.simulate(method="dopri")),
     ("empty method", lambda s: s.simulate(method="")),
     ("no threads", lambda s: s.simulate(threads=0)),
+    ("less than no steps", lambda s: s.simulate(max_steps=-1)),
+    ("more steps than can be counted", lambda s: s.simulate(max_steps=2**63)),
+    ("seed", lambda s: s.tolerance(seed=-1, tolerance=1e-3)),
+    ("less than no sets", lambda s: s.analyze().eliminations(-1)),
+    ("an integer that is no float", lambda s: s.simulate(10**400)),
     ("no such reaction", lambda s: s.simulate(reactions=["pivott"])),
     ("no such choice", lambda s: s.simulate(choose="minimum")),
     ("rows to drop", lambda s: s.simulate(choose=[1, 1])),
@@ -262,25 +267,77 @@ def test_hostile_input(call: Any) -> None:
     assert (type(again), str(again), again.code) == (type(error), str(error), error.code)
 
 
-@pytest.mark.parametrize(
-    "call",
-    [
-        lambda s: s.analyze("now"),
-        lambda s: s.simulate(max_steps=-1),
-        lambda s: s.simulate(threads=1.5),
-        lambda s: s.analyze(drop=["a"]),
-        lambda s: s.simulate_into(".", rtl=1e-3),
-        lambda s: s.simulate(rtl=1e-3),
-        lambda s: s.tolerance(1.5, tolerance=1e-3),
-        lambda s: s.tolerance(seed=-1, tolerance=1e-3),
-        lambda s: s.tolerance(vary={"body.bob.mass": None}),
-        lambda s: s.from_string(3),
-        lambda s: s.analyze().eliminations(-1),
-    ],
-)
-def test_wrong_types(call: Any) -> None:
-    with pytest.raises((TypeError, OverflowError)):
+WRONG_TYPES: list[tuple[Any, str]] = [
+    (lambda s: s.analyze("now"), r"t is `str`, need a time \(s\)"),
+    (lambda s: s.analyze(tolerance=[1e-3]), "tolerance is `list`, need a number"),
+    (lambda s: s.analyze(drop=["a"]), r"drop\[0\] is `str`, need a whole number"),
+    (lambda s: s.analyze(drop=3), "drop is `int`, need a list of rows"),
+    (lambda s: s.simulate(threads=1.5), "threads is `float`, need a whole number"),
+    (lambda s: s.simulate("1"), "t_end is `str`, need a number"),
+    (lambda s: s.simulate(rtol=1j), "rtol is `complex`, need a number"),
+    (lambda s: s.simulate(method=3), "method is `int`, need a text"),
+    (lambda s: s.simulate(output_step=np.zeros(1)), "output_step is `ndarray`, need a number"),
+    (lambda s: s.simulate(reactions=3), "reactions is `int`, need True, False, a name or names"),
+    (lambda s: s.simulate(reactions=[3]), r"reactions\[0\] is `int`, need a text"),
+    (lambda s: s.simulate(choose=3), "choose is `int`, need a choice, or a list of choices"),
+    (lambda s: s.simulate(choose={"pivot": "soft"}), r"choose\['pivot'\] is `str`, need a compliance"),
+    (lambda s: s.simulate(choose={"pivot": (1e-6,)}), r"choose\['pivot'\] is `tuple`, need a compliance"),
+    (lambda s: s.simulate(drives=3), "drives is `int`, need functions by name"),
+    (lambda s: s.simulate(on_row=3), "on_row is `int`, need a function of the time"),
+    (lambda s: s.simulate(on_event="stop"), "on_event is `str`, need a function of an event"),
+    (lambda s: s.simulate(max_memory=1e9), "max_memory is `float`, need a number of bytes"),
+    (lambda s: s.simulate_into(3), "directory is `int`, need a path"),
+    (lambda s: s.simulate_into(".", t_end="1"), "t_end is `str`, need a number"),
+    (lambda s: s.tolerance(1.5, tolerance=1e-3), "runs is `float`, need a whole number"),
+    (lambda s: s.tolerance(seed="a", tolerance=1e-3), "seed is `str`, need a whole number"),
+    (lambda s: s.tolerance(vary={"body.bob.mass": None}), r"vary\['body.bob.mass'\] is None, need a text"),
+    (lambda s: s.tolerance(vary=["body.bob.mass"]), "vary is `list`, need changes by key"),
+    (lambda s: s.linearise(coordinates="bob.x"), "coordinates is `str`, need a list of texts"),
+    (lambda s: s.linearise(follow=[None]), r"follow\[0\] is None, need a text"),
+    (lambda s: s.matrices(q="abc"), "q is `str`, need a list or an array of numbers"),
+    (lambda s: s.matrices(t=None), r"t is None, need a time \(s\)"),
+    (lambda s: s.work_precision(quick="no"), "quick is `str`, need True or False"),
+    (lambda s: s.sweep(3), "vary is `int`, need a list of texts"),
+    (lambda s: s.sweep({"body.bob.mass": [None]}), "a value of `body.bob.mass` is None, need a number"),
+    (lambda s: s.sweep("body.bob.mass=1,2", threads="all"), "threads is `str`, need a whole number"),
+    (lambda s: s.sweep("body.bob.mass=1,2", 3), "out is `int`, need a path"),
+    (lambda s: s.from_string(3), "text is `int`, need a text"),
+    (lambda s: s.from_file(None), "path is None, need a path"),
+    (lambda s: s.from_urdf(text=b"<robot/>"), "text is `bytes`, need a text"),
+    (lambda s: s.from_mjcf(text="<mujoco/>", pose={"hip": "up"}), r"pose\['hip'\] is `str`, need a number"),
+    (lambda s: s.from_mjcf(text="<mujoco/>", snap=1), "snap is `int`, need True or False"),
+    (lambda s: s.with_(**{"body.bob.mass": object()}), "`body.bob.mass` is `object`, need a number"),
+    (lambda s: s.body("b", mass=object()), "a value is `object`, need a number"),
+    (lambda s: s.add(3), "table is `int`, need a text"),
+    (lambda s: s.analyze().eliminations(1.5), "limit is `float`, need a whole number"),
+    (lambda s: s.analyze().combine(3), "sum is `int`, need a text"),
+    (lambda s: s.analyze().moment("pivot", 3), r"about is `int`, need coordinates \(m\)"),
+    (lambda s: s.analyze().moment("pivot", [0.0, "a"]), r"about\[1\] is `str`, need a number"),
+    (lambda s: s.analyze().make_unique(3), "name is `int`, need a text"),
+    (lambda s: s.analyze().make_unique("pivot", 3), "allow is `int`, need a list of rows"),
+    (lambda s: s.analyze().along("1"), "t_end is `str`, need a number"),
+    (lambda s: s.analyze().reactions(3), "choose is `int`, need a list of rows"),
+    (lambda s: s.analyze().reactions({"pivot": None}), r"choose\['pivot'\] is None, need a number"),
+]
+
+
+@pytest.mark.parametrize(("call", "words"), WRONG_TYPES, ids=[words for _, words in WRONG_TYPES])
+def test_wrong_types(call: Any, words: str) -> None:
+    """The argument, what is given, what is needed."""
+    with pytest.raises(TypeError, match=words) as raised:
         call(pfaff.Scene.from_string(PENDULUM))
+    error = raised.value
+    assert isinstance(error, pfaff.ArgumentError) and error.code == "P0001"
+    again = pickle.loads(pickle.dumps(error))
+    assert (type(again), str(again)) == (type(error), str(error))
+
+
+def test_unknown_options_are_refused_as_unknown_keywords() -> None:
+    scene = pfaff.Scene.from_string(PENDULUM)
+    calls: list[Any] = [scene.simulate, lambda **options: scene.simulate_into(".", **options)]
+    for call in calls:
+        with pytest.raises(TypeError, match="rtl"):
+            call(rtl=1e-3)
 
 
 def test_no_panic_leaves_the_package(capfd: pytest.CaptureFixture[str]) -> None:

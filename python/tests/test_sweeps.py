@@ -189,6 +189,50 @@ def test_ctrl_c_is_heard(tmp_path: Path) -> None:
     assert any(line.endswith(" end") for line in journal.read_text().splitlines())
 
 
+def _killed_during_a_run(scene: Path, out: Path) -> None:
+    """Begins the sweep in a process, which is ended while it makes a run, as a full memory would."""
+    before = set(out.glob("shards/*.journal"))
+    body = """
+        import sys, pfaff
+        scene = pfaff.Scene.from_file(sys.argv[1])
+        scene.sweep({"simulate.t_end": [0.1, 10000.0, 0.2]}, sys.argv[2], threads=1)
+    """
+    child = _script(body, scene, out)
+    begun = time.monotonic()
+    while True:
+        assert time.monotonic() - begun < 60.0 and child.poll() is None
+        new = set(out.glob("shards/*.journal")) - before
+        lines = [line for path in new for line in path.read_bytes().splitlines()]
+        rows = [line for line in lines if line[17:19] == b"2,"]
+        if not rows and any(line[17:] in (b"alone 2", b"begin 2", b"begin 1 2 3") for line in lines):
+            break
+        time.sleep(0.001)
+    child.kill()
+    child.communicate()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="kills a process")
+def test_a_crashed_run_is_made_again_when_that_is_asked_for(tmp_path: Path) -> None:
+    path, out = tmp_path / "scene.toml", tmp_path / "out"
+    scene = pfaff.Scene.from_string(PENDULUM, "scene.toml")
+    scene.write(path)
+    vary = {"simulate.t_end": [0.1, 10000.0, 0.2]}
+    # Once among others, and twice alone.
+    for _ in range(3):
+        _killed_during_a_run(path, out)
+    crashed = scene.sweep(vary, out)
+    assert crashed.table["status"].tolist() == ["done", "crashed", "done"]
+    (failure,) = crashed.failures
+    assert failure["run"] == 2 and "the process ended twice" in failure["error"]
+    # It stays one, until it is asked for again; then no other run is made.
+    assert scene.sweep(vary, out).made == 0
+    again = scene.sweep(vary, out, retry_crashed=True)
+    assert (again.made, again.document["done"], again.document["crashed"]) == (1, 3, 0)
+    whole = scene.sweep(vary)
+    _same(again, whole)
+    assert scene.sweep(vary, out, retry_crashed=True).made == 0
+
+
 @pytest.mark.parametrize("kind", ["threads", "processes"])
 def test_executors(kind: str, whole: SweepResult, tmp_path: Path) -> None:
     executor: Executor

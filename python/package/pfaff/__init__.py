@@ -17,7 +17,15 @@ the command ``pfaff``, in SI units and radians. See ``docs/book/python.md``.
 from . import cluster
 from ._analysis import Analysis, ComponentVerdict, GroupVerdict, Verdict
 from ._comparison import Curve, WorkPrecision
-from ._errors import ComputationError, Error, InputError, InternalError, Place, SceneError
+from ._errors import (
+    ArgumentError,
+    ComputationError,
+    Error,
+    InputError,
+    InternalError,
+    Place,
+    SceneError,
+)
 from ._functions import BodyState
 from ._linearisation import Linearisation
 from ._pfaff import __version__
@@ -28,6 +36,7 @@ from .cluster import SweepResult
 
 __all__ = [
     "Analysis",
+    "ArgumentError",
     "BodyMotion",
     "BodyState",
     "ChosenReactions",

@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _arguments as arguments
 from ._errors import wrong
 
 if TYPE_CHECKING:
     from . import _pfaff
+    from ._scene import Scene
 
 Array = NDArray[np.float64]
 Point = Sequence[float] | str
@@ -223,13 +225,37 @@ def _number(value: float | None) -> float:
 
 
 class Analysis:
-    """The verdicts at one configuration."""
+    """The verdicts at one configuration. It does not change, so a copy is the object itself.
 
-    def __init__(self, of: _pfaff.Analysis) -> None:
-        self._of = of
+    A pickle has the scene, and what was computed until then. Where it is read, a question that
+    needs more analyses the configuration again.
+    """
+
+    def __init__(self, scene: Scene, asked: tuple[Any, ...]) -> None:
+        self._scene = scene
+        self._asked = asked
+        of = scene._of.analyse(*asked)
+        self._made: _pfaff.Analysis | None = of
+        self._ranks = of.ranks()
         self._document: dict[str, Any] | None = None
         self._named: dict[str, dict[str, Any]] | None = None
         self._verdicts = _Verdicts(self, of.words())
+
+    @property
+    def _of(self) -> _pfaff.Analysis:
+        """What answers questions."""
+        if self._made is None:
+            self._made = self._scene._of.analyse(*self._asked)
+        return self._made
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_made": None}
+
+    def __copy__(self) -> Analysis:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Analysis:
+        return self
 
     @property
     def verdicts(self) -> Mapping[str, Verdict]:
@@ -265,17 +291,17 @@ class Analysis:
     @property
     def rank(self) -> int:
         """Number of independent rows."""
-        return self._of.ranks()[0]
+        return self._ranks[0]
 
     @property
     def redundancy(self) -> int:
         """Number of rows too many."""
-        return self._of.ranks()[1]
+        return self._ranks[1]
 
     @property
     def mobility(self) -> int:
         """Degrees of freedom."""
-        return self._of.ranks()[2]
+        return self._ranks[2]
 
     @property
     def q(self) -> Array:
@@ -295,7 +321,7 @@ class Analysis:
 
     def combine(self, sum: str) -> GroupVerdict:
         """The verdict on a sum, as ``"W3.N + W4.N"``, or ``"W3 + W4"`` of whole wrenches."""
-        found = json.loads(self._of.combine(sum))
+        found = json.loads(self._of.combine(arguments.text("sum", sum)))
         values = {value["name"]: _number(value["value"]) for value in found.get("values", [])}
         components = _components(found.get("components", []))
         data = (found["sensitivity"], found["fragile"])
@@ -303,7 +329,13 @@ class Analysis:
 
     def moment(self, name: str, about: Point) -> dict[str, ComponentVerdict]:
         """The verdicts on the moment of a reaction about a point."""
-        point = about if isinstance(about, str) else [float(x) for x in about]
+        needed = "coordinates (m), or the name of a marker"
+        point: str | list[float] = (
+            about
+            if isinstance(about, str)
+            else arguments.listed("about", about, arguments.number, needed)
+        )
+        name = arguments.text("name", name)
         return _components(json.loads(self._of.moment(name, point))["components"])
 
     def make_unique(self, name: str, allow: Allow = "sensible") -> dict[str, Any]:
@@ -312,13 +344,14 @@ class Analysis:
         The entry of ``pfaff analyze --make-unique --json``: ``ways`` with ``rows`` and ``text``,
         and whether they are ``complete``.
         """
-        allowed = allow if isinstance(allow, str) else list(allow)
+        allowed = allow if isinstance(allow, str) else arguments.rows("allow", allow)
+        name = arguments.text("name", name)
         found: dict[str, Any] = json.loads(self._of.make_unique(name, allowed))
         return found
 
     def eliminations(self, limit: int = 100) -> dict[str, Any]:
         """Sets of rows that can be deleted without a change of motion: ``count`` and ``sets``."""
-        found: dict[str, Any] = json.loads(self._of.eliminations(limit))
+        found: dict[str, Any] = json.loads(self._of.eliminations(arguments.count("limit", limit)))
         return found
 
     def along(self, t_end: float | None = None) -> dict[str, Any]:
@@ -329,7 +362,8 @@ class Analysis:
         ``special`` the instants with other verdicts, as in the ``document`` of a run; ``passages``
         the singular configurations.
         """
-        found: dict[str, Any] = json.loads(self._of.along(t_end))
+        end = arguments.maybe(arguments.number, "t_end", t_end)
+        found: dict[str, Any] = json.loads(self._of.along(end))
         return found
 
     def explain(self) -> list[str]:
@@ -348,11 +382,13 @@ class Analysis:
         ``length`` (m) on which a torque counts as a force; rows to drop, from 1; or compliances
         (m/N) of joints by name.
         """
-        choice: float | None | list[int] | list[tuple[str, float, float]] = length
+        choice: float | None | list[int] | list[tuple[str, float, float]]
+        choice = arguments.maybe(arguments.number, "length", length)
         if isinstance(choose, Mapping):
-            choice = [(name, float(x), 0.0) for name, x in choose.items()]
+            soft = arguments.named("choose", choose, arguments.number, "compliances")
+            choice = [(name, x, 0.0) for name, x in soft.items()]
         elif choose is not None and not isinstance(choose, str):
-            choice = list(choose)
+            choice = arguments.rows("choose", choose)
         elif choose not in (None, "minimum-norm"):
             raise wrong(
                 f"choose is `{choose}`, need `minimum-norm`, rows to drop, or compliances by name"
@@ -367,7 +403,7 @@ class Analysis:
         }
 
     def __repr__(self) -> str:
-        rank, redundancy, mobility = self._of.ranks()
+        rank, redundancy, mobility = self._ranks
         return f"<pfaff.Analysis: rank {rank}, redundancy {redundancy}, mobility {mobility}>"
 
     def _repr_html_(self) -> str:

@@ -35,7 +35,7 @@ class Error(Exception):
         self.document: dict[str, Any] = json.loads(document) if document else {}
         """The document that the command writes with ``--json``."""
 
-    def __reduce__(self) -> tuple[type[Error], tuple[str, str]]:
+    def __reduce__(self) -> tuple[Any, ...]:
         document = json.dumps(self.document) if self.document else ""
         return (type(self), (str(self), document))
 
@@ -76,11 +76,18 @@ class InputError(Error, ValueError):
     """An argument is wrong, or a file cannot be read."""
 
 
+class ArgumentError(InputError, TypeError):
+    """An argument has a wrong type."""
+
+
 class ComputationError(Error, ArithmeticError):
     """The input is right, but the computation stopped."""
 
     run: Run | None = None
     """What a run had computed before it stopped."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (*super().__reduce__(), {"run": self.run})
 
 
 class InternalError(Error, RuntimeError):
@@ -89,6 +96,16 @@ class InternalError(Error, RuntimeError):
 
 def wrong(message: str) -> InputError:
     """The exception for a wrong argument, with the code of wrong input."""
+    return InputError(*_words(message))
+
+
+def wrong_type(name: str, given: object, needed: str) -> ArgumentError:
+    """The exception for an argument of a wrong type: its name, what is given, what is needed."""
+    kind = "None" if given is None else f"`{type(given).__name__}`"
+    return ArgumentError(*_words(f"{name} is {kind}, need {needed}"))
+
+
+def _words(message: str) -> tuple[str, str]:
     code = input_code()
     document = {"ok": False, "code": code, "error": message, "problems": []}
-    return InputError(f"error[{code}]: {message}", json.dumps(document))
+    return f"error[{code}]: {message}", json.dumps(document)

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._errors import wrong
+from . import _arguments as arguments
 
 Array = NDArray[np.float64]
 DriveLaw = Callable[[float, float, float], float]
@@ -51,12 +51,11 @@ def of_bodies(forces: Mapping[str, BodyForce] | None) -> Named:
 
 
 def _checked(option: str, functions: Mapping[str, Any] | None, needs: str) -> Named:
-    named = list((functions or {}).items())
-    for name, function in named:
-        if not callable(function):
-            kind = type(function).__name__
-            raise wrong(f"{option}[{name!r}] is `{kind}`, need a function of {needs}")
-    return named
+    def check(name: str, given: Any) -> Callable[..., Any]:
+        return arguments.function(name, given, needs)
+
+    given = {} if functions is None else functions
+    return list(arguments.named(option, given, check, "functions by name").items())
 
 
 def _of_state(function: BodyForce) -> Callable[..., ArrayLike]:

@@ -8,7 +8,7 @@ from _typeshed import Incomplete, SupportsGetItem
 from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-__all__ = ["__version__", "Analysis", "Run", "Scene", "Sweep", "_panics", "input_code", "merge", "nearest", "sweep_columns", "tolerance", "work_precision"]
+__all__ = ["__version__", "Analysis", "Run", "Scene", "Sweep", "_panics", "forget_crashed", "input_code", "merge", "nearest", "sweep_columns", "tolerance", "work_precision"]
 
 __version__: Final[str]
 """
@@ -103,11 +103,11 @@ class Scene:
     The text of a scene. It does not change; what was read from it is kept.
     """
     def __new__(cls, /, name: str, text: str) -> Scene: ...
-    def analyse(self, /, t: SupportsFloat | SupportsIndex, length: SupportsFloat | SupportsIndex | None, angle: SupportsFloat | SupportsIndex | None, drop: SupportsGetItem[int, SupportsIndex] | None) -> Analysis:
+    def analyse(self, /, t: SupportsFloat | SupportsIndex, length: SupportsFloat | SupportsIndex | None, angle: SupportsFloat | SupportsIndex | None, drop: SupportsGetItem[int, SupportsIndex] | None, max_memory: SupportsIndex | str | None) -> Analysis:
         """
         Analyses a configuration.
         """
-    def check(self, /) -> None:
+    def check(self, /, max_memory: SupportsIndex | str | None) -> None:
         """
         Reads and assembles the scene; raises what is wrong with it.
         """
@@ -126,7 +126,7 @@ class Scene:
         """
         The document that `pfaff linearise --json` writes.
         """
-    def matrices(self, /, q: SupportsGetItem[int, SupportsFloat | SupportsIndex] | None, v: SupportsGetItem[int, SupportsFloat | SupportsIndex] | None, t: SupportsFloat | SupportsIndex) -> tuple[Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete]:
+    def matrices(self, /, q: SupportsGetItem[int, SupportsFloat | SupportsIndex] | None, v: SupportsGetItem[int, SupportsFloat | SupportsIndex] | None, t: SupportsFloat | SupportsIndex, max_memory: SupportsIndex | str | None) -> tuple[Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete]:
         """
         C, the diagonal of M, Γ, Q, b and Φ at coordinates and velocities; those of the start if
         they are `None`.
@@ -192,6 +192,12 @@ class Sweep:
 def _panics() -> None:
     """
     Panics, for the test that no panic leaves this module.
+    """
+
+def forget_crashed(directory: str | PathLike[str]) -> int:
+    """
+    Forgets the rows of runs that have ended their process, so that they are made again. Returns
+    their number.
     """
 
 def input_code() -> str:

@@ -5,16 +5,17 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, NamedTuple, TypeGuard, cast
+from typing import Any, NamedTuple, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _arguments as arguments
 from . import _pfaff
 from . import _toml as toml
 from ._analysis import Analysis
 from ._comparison import WorkPrecision
-from ._errors import wrong
+from ._errors import wrong, wrong_type
 from ._functions import BodyForce, DriveLaw, of_bodies, of_drives
 from ._linearisation import Linearisation
 from ._run import Event, Run
@@ -60,7 +61,8 @@ class Scene:
 
         ``keys`` are those of the table ``[scene]``, as ``gravity`` and ``tolerance``.
         """
-        entries = {"name": name, "space": space, **keys}
+        name = arguments.text("name", name)
+        entries = {"name": name, "space": arguments.text("space", space), **keys}
         self._of = _pfaff.Scene(f"{name}.toml", toml.table("[scene]", entries))
 
     @classmethod
@@ -72,12 +74,12 @@ class Scene:
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Scene:
         """Reads a file in the format of scenes."""
-        return cls._made(_pfaff.Scene.from_file(os.fspath(path)))
+        return cls._made(_pfaff.Scene.from_file(arguments.path("path", path)))
 
     @classmethod
     def from_string(cls, text: str, name: str = "scene.toml") -> Scene:
         """A scene of this text; ``name`` is that of the file in messages."""
-        return cls._made(_pfaff.Scene(name, text))
+        return cls._made(_pfaff.Scene(arguments.text("name", name), arguments.text("text", text)))
 
     @classmethod
     def from_mjcf(cls, path: str | os.PathLike[str] | None = None, **options: Any) -> Scene:
@@ -117,11 +119,18 @@ class Scene:
         """
         if path is None and text is None:
             raise wrong("need a path or a text")
-        name = "text.xml" if path is None else os.fspath(path)
-        file = None if loops is None else os.fspath(loops)
-        joints = [(joint, float(x)) for joint, x in (pose or {}).items()]
+        given = {} if pose is None else pose
+        joints = arguments.named("pose", given, arguments.number, "values of joints by name")
         of, remarks, omissions = _pfaff.Scene.imported(
-            format, name, text, base, keep_fixed, snap, keyframe, joints, file
+            arguments.text("format", format),
+            "text.xml" if path is None else arguments.path("path", path),
+            arguments.maybe(arguments.text, "text", text),
+            arguments.text("base", base),
+            arguments.flag("keep_fixed", keep_fixed),
+            arguments.flag("snap", snap),
+            arguments.maybe(arguments.text, "keyframe", keyframe),
+            list(joints.items()),
+            arguments.maybe(arguments.path, "loops", loops),
         )
         return cls._made(of), remarks, omissions
 
@@ -168,18 +177,18 @@ class Scene:
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes the text into a file, for the command."""
-        with open(path, "w", encoding="utf-8", newline="\n") as file:
+        with open(arguments.path("path", path), "w", encoding="utf-8", newline="\n") as file:
             file.write(self.text)
 
     # The builder.
 
     def add(self, table: str, **keys: Any) -> Scene:
         """The scene with another ``[[table]]``, as ``[[body]]``; ``None`` leaves a key out."""
-        return self._with_table(f"[[{table}]]", keys)
+        return self._with_table(f"[[{arguments.text('table', table)}]]", keys)
 
     def set(self, table: str, **keys: Any) -> Scene:
         """The scene with a table that occurs once, as ``[simulate]`` or ``[start]``."""
-        return self._with_table(f"[{table}]", keys)
+        return self._with_table(f"[{arguments.text('table', table)}]", keys)
 
     def _with_table(self, header: str, keys: Mapping[str, Any]) -> Scene:
         text = self.text if self.text.endswith("\n") or not self.text else f"{self.text}\n"
@@ -234,9 +243,14 @@ class Scene:
 
     # What is computed.
 
-    def check(self) -> Scene:
-        """Reads and assembles the scene, and returns it; raises everything that is wrong."""
-        self._of.check()
+    def check(self, *, max_memory: int | str | None = None) -> Scene:
+        """Reads and assembles the scene, and returns it; raises everything that is wrong.
+
+        ``max_memory`` is a number of bytes, or a text as ``"4GB"``: computations that need more
+        are refused before they begin (P0007). By default it is the memory that the machine has
+        left. Other methods with this option do the same.
+        """
+        self._of.check(arguments.maybe(arguments.size, "max_memory", max_memory))
         return self
 
     def analyze(
@@ -246,6 +260,7 @@ class Scene:
         tolerance: float | None = None,
         angle_tolerance: float | None = None,
         drop: Iterable[int] | None = None,
+        max_memory: int | str | None = None,
     ) -> Analysis:
         """The verdicts at a time of the motion (s); at 0 no run is needed.
 
@@ -253,8 +268,14 @@ class Scene:
         to, in place of those of the scene. ``drop`` are the rows to take as the dependent ones,
         from 1.
         """
-        rows = None if drop is None else list(drop)
-        return Analysis(self._of.analyse(t, tolerance, angle_tolerance, rows))
+        asked = (
+            arguments.number("t", t, "a time (s)"),
+            arguments.maybe(arguments.number, "tolerance", tolerance),
+            arguments.maybe(arguments.number, "angle_tolerance", angle_tolerance),
+            arguments.maybe(arguments.rows, "drop", drop),
+            arguments.maybe(arguments.size, "max_memory", max_memory),
+        )
+        return Analysis(self, asked)
 
     def simulate(
         self,
@@ -269,6 +290,7 @@ class Scene:
         threads: int | None = None,
         tolerance: float | None = None,
         angle_tolerance: float | None = None,
+        max_memory: int | str | None = None,
         reactions: bool | Iterable[str] = True,
         choose: Choice | Sequence[Choice] | None = None,
         drives: Mapping[str, DriveLaw] | None = None,
@@ -306,10 +328,15 @@ class Scene:
             threads=threads,
             tolerance=tolerance,
             angle_tolerance=angle_tolerance,
+            max_memory=max_memory,
             drop=_drop(choose),
             reactions=_wanted(reactions),
         )
         kept, choices = _chosen(choose)
+        if on_row is not None:
+            arguments.function("on_row", on_row, "the time")
+        if on_event is not None:
+            arguments.function("on_event", on_event, "an event")
         told = None if on_event is None else lambda text: on_event(Event(**json.loads(text)))
         laws, pushes = of_drives(drives), of_bodies(forces)
         of = self._of.simulate(options, kept, choices, told, on_row, laws, pushes)
@@ -338,7 +365,7 @@ class Scene:
         own = dict(options)
         laws, pushes = of_drives(own.pop("drives", None)), of_bodies(own.pop("forces", None))
         choices = own.pop("choices", [])
-        place = os.fspath(directory)
+        place = arguments.path("directory", directory)
         summary = self._of.simulate_into(place, _options(**own), choices, until, laws, pushes)
         document: dict[str, Any] = json.loads(summary)
         return document
@@ -381,17 +408,32 @@ class Scene:
         return sweep(self, vary, None, out=out, threads=threads, **options)
 
     def matrices(
-        self, q: ArrayLike | None = None, v: ArrayLike | None = None, t: float = 0.0
+        self,
+        q: ArrayLike | None = None,
+        v: ArrayLike | None = None,
+        t: float = 0.0,
+        *,
+        max_memory: int | str | None = None,
     ) -> Matrices:
-        """C, M, Γ, Q, b and Φ at coordinates and velocities, those of the start by default."""
-        c, mass, gamma, q_applied, b, phi = self._of.matrices(_numbers("q", q), _numbers("v", v), t)
+        """C, M, Γ, Q, b and Φ at coordinates and velocities, those of the start by default.
+
+        C and M are dense: with more than ``max_memory`` they are refused (see :meth:`check`).
+        """
+        c, mass, gamma, q_applied, b, phi = self._of.matrices(
+            _numbers("q", q),
+            _numbers("v", v),
+            arguments.number("t", t, "a time (s)"),
+            arguments.maybe(arguments.size, "max_memory", max_memory),
+        )
         return Matrices(c, np.diag(mass), gamma, q_applied, b, phi)
 
     def linearise(
         self, t: float = 0.0, *, coordinates: Iterable[str] = (), follow: Iterable[str] = ()
     ) -> Linearisation:
         """Small motions about a state at rest or a steady one, as ``pfaff linearise``."""
-        return Linearisation(self._of.linearise(t, list(coordinates), list(follow)))
+        time = arguments.number("t", t, "a time (s)")
+        own = arguments.texts("coordinates", coordinates)
+        return Linearisation(self._of.linearise(time, own, arguments.texts("follow", follow)))
 
     def tolerance(
         self,
@@ -403,6 +445,7 @@ class Scene:
         tolerance: float | None = None,
         angle_tolerance: float | None = None,
         threads: int | None = None,
+        max_memory: int | str | None = None,
     ) -> Samples:
         """Samples of the data within their tolerances, as ``pfaff tolerance``.
 
@@ -412,15 +455,18 @@ class Scene:
         besides, by their keys: ``{"body.crank.mass": "±2%"}``, or a number that is the largest
         change. The same ``seed`` gives the same samples, whatever the ``threads``.
         """
-        by = {key: of if isinstance(of, str) else f"±{float(of)!r}" for key, of in (vary or {}).items()}
+        by = arguments.named("vary", {} if vary is None else vary, _change, "changes by key")
         options = {
-            "runs": runs,
-            "seed": seed,
-            "t": t,
+            "runs": arguments.count("runs", runs),
+            "seed": arguments.count("seed", seed),
+            "t": arguments.number("t", t, "a time (s)"),
             "vary": list(by.items()),
-            "tolerance": tolerance,
-            "angle_tolerance": angle_tolerance,
-            "threads": threads,
+            "tolerance": arguments.maybe(arguments.number, "tolerance", tolerance),
+            "angle_tolerance": arguments.maybe(
+                arguments.number, "angle_tolerance", angle_tolerance
+            ),
+            "threads": arguments.maybe(arguments.count, "threads", threads),
+            "max_memory": arguments.maybe(arguments.size, "max_memory", max_memory),
         }
         return Samples(self, *_pfaff.tolerance(self._of, options))
 
@@ -430,6 +476,7 @@ class Scene:
         ``quick`` are three tolerances in place of eleven, ``all`` every method with every
         treatment of drift. Each run is timed several times, one after the other.
         """
+        quick, all = arguments.flag("quick", quick), arguments.flag("all", all)
         if quick and all:
             raise wrong("either `quick` or `all`, not both")
         return WorkPrecision(_pfaff.work_precision(self._of, quick, all))
@@ -442,31 +489,40 @@ def _between(bodies: Bodies | None) -> dict[str, Any]:
     return {"body" if isinstance(bodies, str) else "bodies": bodies}
 
 
-_NONE: dict[str, Any] = dict.fromkeys(
-    (
-        "t_end",
-        "rtol",
-        "atol",
-        "max_step",
-        "max_steps",
-        "method",
-        "threads",
-        "drop",
-        "output_step",
-        "tolerance",
-        "angle_tolerance",
-        "reactions",
-    )
-)
+_CHECKS: dict[str, Callable[[str, Any], Any]] = {
+    "t_end": arguments.number,
+    "rtol": arguments.number,
+    "atol": arguments.number,
+    "max_step": arguments.number,
+    "max_steps": arguments.count,
+    "method": arguments.text,
+    "threads": arguments.count,
+    "drop": arguments.rows,
+    "output_step": arguments.number,
+    "tolerance": arguments.number,
+    "angle_tolerance": arguments.number,
+    "reactions": arguments.texts,
+    "max_memory": arguments.size,
+}
+"""Options of a run, and how they are checked."""
 
 
 def _options(**options: Any) -> dict[str, Any]:
-    return {**_NONE, **options}
+    return {
+        name: arguments.maybe(check, name, options.get(name)) for name, check in _CHECKS.items()
+    }
+
+
+def _change(name: str, given: Any) -> str:
+    """A change as the library reads it: a text, or the largest change."""
+    if isinstance(given, str):
+        return given
+    return f"±{arguments.number(name, given, 'a text as `±2%`, or the largest change')!r}"
 
 
 def _known(options: Mapping[str, Any]) -> None:
     """An unknown option is refused as an unknown keyword."""
-    known = [*_NONE, "choices", "drives", "forces"]
+    known = [*_CHECKS, "choices", "drives", "forces"]
     for name in options:
         if name not in known:
             near = _pfaff.nearest(name, known)
@@ -493,14 +549,15 @@ def _chosen(choose: Choice | Sequence[Choice] | None) -> tuple[bool, list[Native
         return True, []
     if isinstance(choose, (str, Mapping)):
         return False, [_native(choose)]
-    return False, [_native(one) for one in cast(Sequence[Choice], choose)]
+    needed = "a choice, or a list of choices"
+    return False, arguments.listed("choose", choose, lambda _, one: _native(one), needed)
 
 
 def _native(choose: Choice) -> NativeChoice:
     """A choice as the library takes it."""
     if isinstance(choose, Mapping):
-        pairs = [(name, x if isinstance(x, tuple) else (x, 0.0)) for name, x in choose.items()]
-        return [(name, float(along), float(turn)) for name, (along, turn) in pairs]
+        soft = arguments.named("choose", choose, _compliance, "compliances")
+        return [(name, along, turn) for name, (along, turn) in soft.items()]
     if _is_rows(choose):
         return [int(row) for row in choose]
     if choose == "minimum-norm":
@@ -516,6 +573,16 @@ def _native(choose: Choice) -> NativeChoice:
     )
 
 
+def _compliance(name: str, given: Any) -> tuple[float, float]:
+    """Compliances along a line and of a rotation (m/N, rad/(N·m))."""
+    needed = "a compliance (m/N), or a pair with that of rotation"
+    both = given if isinstance(given, tuple) else (given, 0.0)
+    if len(both) != 2:
+        raise wrong_type(name, given, needed)
+    along, turn = (arguments.number(name, x, needed) for x in both)
+    return along, turn
+
+
 def _choose(options: dict[str, Any]) -> None:
     """Puts rows to drop and other choices in place of ``choose``."""
     if "choose" in options:
@@ -527,7 +594,10 @@ def _choose(options: dict[str, Any]) -> None:
 def _wanted(reactions: bool | Iterable[str]) -> list[str] | None:
     if isinstance(reactions, bool):
         return None if reactions else []
-    return [reactions] if isinstance(reactions, str) else list(reactions)
+    if isinstance(reactions, str):
+        return [reactions]
+    needed = "True, False, a name or names"
+    return arguments.listed("reactions", reactions, arguments.text, needed)
 
 
 def _entries(key: str, item: Any) -> list[tuple[str, str]]:
@@ -541,8 +611,7 @@ def _entries(key: str, item: Any) -> list[tuple[str, str]]:
     try:
         return [(key, toml.number(float(item)))]
     except (TypeError, ValueError):
-        kind = type(item).__name__
-        raise wrong(f"`{key}` is {kind}, need a number, an expression or a list") from None
+        raise wrong_type(f"`{key}`", item, "a number, an expression or a list") from None
 
 
 def _numbers(name: str, of: ArrayLike | None) -> list[float] | None:
@@ -550,8 +619,8 @@ def _numbers(name: str, of: ArrayLike | None) -> list[float] | None:
         return None
     try:
         array = np.asarray(of, dtype=np.float64)
-    except (TypeError, ValueError) as e:
-        raise wrong(f"{name} is no array of numbers: {e}") from None
+    except (TypeError, ValueError):
+        raise wrong_type(name, of, "a list or an array of numbers") from None
     if array.ndim != 1:
         raise wrong(f"{name} has {array.ndim} dimensions, need 1")
     numbers: list[float] = array.tolist()

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any, SupportsFloat, SupportsIndex
 
-from ._errors import wrong
+from ._errors import wrong_type
 
 
 def value(of: Any) -> str:
@@ -27,7 +27,7 @@ def value(of: Any) -> str:
         return f"[{', '.join(value(item) for item in of)}]"
     if isinstance(of, SupportsFloat):
         return number(float(of))
-    raise wrong(f"a value is {type(of).__name__}, need a number, a text, a list or a dict")
+    raise wrong_type("a value", of, "a number, a text, a list or a dict")
 
 
 def number(of: float) -> str:

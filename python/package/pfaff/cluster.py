@@ -28,9 +28,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _arguments as arguments
 from . import _pfaff
 from . import _toml as toml
-from ._errors import wrong
+from ._errors import wrong, wrong_type
 
 if TYPE_CHECKING:
     from ._scene import Scene
@@ -219,6 +220,7 @@ def sweep(
     threads: int | None = None,
     retries: int = 3,
     keep_rows: bool = False,
+    retry_crashed: bool = False,
     on_progress: Callable[[int, int], object] | None = None,
     progress: bool | None = None,
 ) -> SweepResult:
@@ -237,10 +239,21 @@ def sweep(
     those of one shard: one by default, and all cores without a client. Lost work is repeated up to
     ``retries`` times by the engine, and as often by this function.
 
+    A run that has ended its process twice is a row ``crashed``, and stays one. With
+    ``retry_crashed`` such runs are made again, as if they had never begun: for instance after a
+    worker was killed because its machine had too little memory. No other process may work in the
+    directory at the beginning of such a call.
+
     ``on_progress`` gets the numbers of finished runs and of all runs; the sweep ends where it
     returns ``True``. ``progress`` shows a line; by default where standard error is a terminal.
     """
     texts = tuple(_texts(vary))
+    keep_rows = arguments.flag("keep_rows", keep_rows)
+    retries = arguments.count("retries", retries)
+    shards = arguments.maybe(arguments.count, "shards", shards)
+    threads = arguments.maybe(arguments.count, "threads", threads)
+    if on_progress is not None:
+        arguments.function("on_progress", on_progress, "two numbers of runs")
     of = _sweep_of(scene.file, scene.text, texts, keep_rows)
     engine = _engine(client)
     if shards is not None and shards < 1:
@@ -259,7 +272,9 @@ def sweep(
             told.end()
 
     if out is not None:
-        directory = os.path.abspath(os.fspath(out))
+        directory = os.path.abspath(arguments.path("out", out))
+        if arguments.flag("retry_crashed", retry_crashed):
+            _pfaff.forget_crashed(directory)
         made = made_in(directory)
         return SweepResult(directory, made, *_pfaff.sweep_columns(directory))
     if engine is not None:
@@ -332,7 +347,7 @@ def _texts(vary: Vary) -> list[str]:
     if isinstance(vary, str):
         return [vary]
     if not isinstance(vary, Mapping):
-        return list(vary)
+        return arguments.texts("vary", vary)
     return [f"{key}={_values(key, values)}" for key, values in vary.items()]
 
 
@@ -348,8 +363,7 @@ def _values(key: str, values: Any) -> str:
         try:
             texts.append(value if isinstance(value, str) else toml.number(float(value)))
         except (TypeError, ValueError):
-            kind = type(value).__name__
-            raise wrong(f"a value of `{key}` is {kind}, need a number or a text") from None
+            raise wrong_type(f"a value of `{key}`", value, "a number or a text") from None
     return ",".join(texts)
 
 
@@ -515,7 +529,5 @@ def _engine(client: Any) -> _Engine | None:
         return _Joblib(client)
     if hasattr(client, "submit") and hasattr(client, "shutdown"):
         return _Executor(client)
-    kind = type(client).__name__
-    raise wrong(
-        f"client is {kind}, need a client of Dask, the module `ray`, a joblib.Parallel or an executor"
-    )
+    needed = "a client of Dask, the module `ray`, a joblib.Parallel or an executor"
+    raise wrong_type("client", client, needed)

@@ -1,0 +1,110 @@
+"""Arguments of the caller: each check returns the argument, or raises an exception that names it,
+with what is given and what is needed."""
+
+from __future__ import annotations
+
+import operator
+import os
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ._errors import wrong, wrong_type
+
+T = TypeVar("T")
+
+_LARGEST = 2**63
+"""Counts are smaller."""
+
+
+def maybe(check: Callable[[str, Any], T], name: str, given: Any) -> T | None:
+    """``None``, or what a check returns."""
+    return None if given is None else check(name, given)
+
+
+def number(name: str, given: Any, needed: str = "a number") -> float:
+    """A number."""
+    is_number = hasattr(given, "__float__") or hasattr(given, "__index__")
+    if not is_number or getattr(given, "shape", ()) != ():
+        raise wrong_type(name, given, needed)
+    try:
+        return float(given)
+    except TypeError:
+        raise wrong_type(name, given, needed) from None
+    except (ValueError, OverflowError) as error:
+        raise wrong(f"{name} cannot be read as a number: {error}") from None
+
+
+def count(name: str, given: Any) -> int:
+    """A whole number ≥ 0."""
+    try:
+        whole = operator.index(given)
+    except TypeError:
+        raise wrong_type(name, given, "a whole number") from None
+    if not 0 <= whole < _LARGEST:
+        raise wrong(f"{name} is {whole}, need a whole number from 0 to 2^63 - 1")
+    return whole
+
+
+def text(name: str, given: Any) -> str:
+    """A text."""
+    if not isinstance(given, str):
+        raise wrong_type(name, given, "a text")
+    return given
+
+
+def flag(name: str, given: Any) -> bool:
+    """Yes or no."""
+    if not isinstance(given, (bool, np.bool_)):
+        raise wrong_type(name, given, "True or False")
+    return bool(given)
+
+
+def path(name: str, given: Any) -> str:
+    """A path."""
+    try:
+        return os.fsdecode(given)
+    except TypeError:
+        raise wrong_type(name, given, "a path") from None
+
+
+def size(name: str, given: Any) -> int | str:
+    """A number of bytes, or a text as ``"4GB"``."""
+    if isinstance(given, str):
+        return given
+    try:
+        return count(name, given)
+    except TypeError:
+        raise wrong_type(name, given, "a number of bytes, or a text as `4GB`") from None
+
+
+def function(name: str, given: Any, of: str) -> Callable[..., Any]:
+    """A function."""
+    if not callable(given):
+        raise wrong_type(name, given, f"a function of {of}")
+    return given  # type: ignore[no-any-return]
+
+
+def listed(name: str, given: Any, check: Callable[[str, Any], T], needed: str) -> list[T]:
+    """A list; a text is none."""
+    if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
+        raise wrong_type(name, given, needed)
+    return [check(f"{name}[{k}]", item) for k, item in enumerate(given)]
+
+
+def texts(name: str, given: Any) -> list[str]:
+    """Texts."""
+    return listed(name, given, text, "a list of texts")
+
+
+def rows(name: str, given: Any) -> list[int]:
+    """Rows, from 1."""
+    return listed(name, given, count, "a list of rows, from 1")
+
+
+def named(name: str, given: Any, check: Callable[[str, Any], T], needed: str) -> dict[str, T]:
+    """Things by names."""
+    if not isinstance(given, Mapping):
+        raise wrong_type(name, given, needed)
+    return {text(f"a key of {name}", key): check(f"{name}[{key!r}]", of) for key, of in given.items()}
