@@ -126,11 +126,18 @@ class ChosenReactions:
     def __init__(self, name: str, reactions: Array, columns: Sequence[tuple[str, str, str]]) -> None:
         self.name = name
         """The name of the choice."""
-        reactions.flags.writeable = False
         self.reactions: Array = reactions
         """The columns of ``choice.csv`` after ``t``; NaN where the choice selects no solution."""
+        self._seal()
         self._reactions = _grouped(columns, reactions, Reaction, ("reaction",))
         self._groups = _grouped(columns, reactions, _Columns, ("group",))
+
+    def _seal(self) -> None:
+        self.reactions.flags.writeable = False
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._seal()
 
     def reaction(self, name: str) -> Reaction:
         """The reaction of a joint or drive."""
@@ -168,8 +175,7 @@ class Run:
         self.reactions: Array = self.choices[0].reactions if is_chosen else of.reactions
         """The columns of ``reactions.csv`` after ``t``; NaN where a cell is empty, or the numbers of
         a single choice."""
-        for array in (self.t, self.q, self.v, self.trajectory, self.reactions):
-            array.flags.writeable = False
+        self._seal()
         self.document: dict[str, Any] = json.loads(of.document)
         """The summary, as ``summary.json``."""
         self.columns: list[str] = [_heading(owner, number) for _, owner, number in of.columns]
@@ -181,6 +187,14 @@ class Run:
         self._others = _grouped(of.columns, self.trajectory, _Columns, ("measure", "law"))
         self._reactions = _grouped(of.reaction_columns, self.reactions, Reaction, ("reaction",))
         self._groups = _grouped(of.reaction_columns, self.reactions, _Columns, ("group",))
+
+    def _seal(self) -> None:
+        for array in (self.t, self.q, self.v, self.trajectory, self.reactions):
+            array.flags.writeable = False
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._seal()
 
     @property
     def bodies(self) -> list[str]:

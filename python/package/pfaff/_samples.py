@@ -33,8 +33,15 @@ class Samples:
         for name, values in columns:
             self.table.setdefault(name, np.asarray(values))
         self.table["sample"] = self.table["sample"].astype(np.int64)
+        self._seal()
+
+    def _seal(self) -> None:
         for array in self.table.values():
             array.flags.writeable = False
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._seal()
 
     @property
     def columns(self) -> list[str]:
