@@ -3,8 +3,9 @@
 `python python/build.py` from the root, or from anywhere: the environment is `python/target/venv`,
 the wheel goes to `python/target/wheels`. The stubs of the private module are made of the compiled
 module and compared with `package/pfaff/_pfaff.pyi`; `--write-stubs` writes them. `--quick` compiles
-faster, for tests: with little optimisation. Needs Python >= 3.10 with venv and pip, cargo, and on the
-first run the network.
+faster, for tests: with little optimisation. `--portable` links for Linux systems with an older C
+library, glibc 2.28 and later; without it the wheel needs the glibc of this machine. Needs Python >=
+3.10 with venv and pip, cargo, and on the first run the network.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -22,6 +24,8 @@ VENV = TARGET / "venv"
 WHEELS = TARGET / "wheels"
 STUBS = HERE / "package" / "pfaff" / "_pfaff.pyi"
 HEADING = "# Written by `python python/build.py --write-stubs` from the compiled module.\n\n"
+PORTABLE = ("--zig", "--compatibility", "manylinux_2_28")
+"""Zig links against the symbols of an older glibc; maturin refuses a wheel with later ones."""
 LICENCES = ("LICENSE-APACHE", "LICENSE-MIT")
 
 
@@ -54,7 +58,7 @@ def environment(python: str) -> None:
             print(f"without {engine}: its tests will be skipped", flush=True)
 
 
-def wheel(profile: str) -> Path:
+def wheel(profile: str, extra: Sequence[str]) -> Path:
     """Builds the wheel."""
     shutil.rmtree(WHEELS, ignore_errors=True)
     for name in LICENCES:
@@ -64,7 +68,7 @@ def wheel(profile: str) -> Path:
         options.append("--strip")
     begun = time.monotonic()
     try:
-        run(interpreter(), "-m", "maturin", "build", *options)
+        run(interpreter(), "-m", "maturin", "build", *options, *extra)
     finally:
         for name in LICENCES:
             (HERE / name).unlink()
@@ -75,7 +79,11 @@ def wheel(profile: str) -> Path:
 
 
 def stubs(profile: str, write: bool) -> None:
-    """Compares the stubs of the private module with the compiled one, or writes them."""
+    """Compares the stubs of the private module with the compiled one, or writes them.
+
+    They are read from symbols that the wheel is stripped of, so the module is linked twice; all
+    other crates are compiled once.
+    """
     folder = TARGET / "stubs"
     shutil.rmtree(folder, ignore_errors=True)
     options = ("--profile", profile, "--out", folder)
@@ -93,6 +101,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--python", default=sys.executable, help="interpreter of the environment")
     parser.add_argument("--quick", action="store_true", help="compile faster, for tests")
+    parser.add_argument("--portable", action="store_true", help="link for glibc 2.28 and later")
     parser.add_argument("--write-stubs", action="store_true", help="write the stubs anew")
     parser.add_argument("--environment", action="store_true", help="make the environment alone")
     arguments = parser.parse_args()
@@ -100,8 +109,14 @@ def main() -> None:
     if arguments.environment:
         return
     profile = "quick" if arguments.quick else "release"
-    stubs(profile, arguments.write_stubs)
-    made = wheel(profile)
+    if arguments.portable:
+        # Not the stubs: they would be compiled for another target.
+        requirements = ("--requirement", HERE / "requirements-release.txt")
+        run(interpreter(), "-m", "pip", "install", "--quiet", *requirements)
+        made = wheel(profile, PORTABLE)
+    else:
+        stubs(profile, arguments.write_stubs)
+        made = wheel(profile, ())
     pip = (interpreter(), "-m", "pip", "--disable-pip-version-check", "install", "--quiet")
     run(*pip, "--force-reinstall", "--no-deps", made)
 
