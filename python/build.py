@@ -11,6 +11,7 @@ library, glibc 2.28 and later; without it the wheel needs the glibc of this mach
 from __future__ import annotations
 
 import argparse
+import os
 import shutil
 import subprocess
 import sys
@@ -110,6 +111,8 @@ def main() -> None:
         return
     profile = "quick" if arguments.quick else "release"
     if arguments.portable:
+        # Where maturin looks for Zig.
+        os.environ["PATH"] = os.pathsep.join((str(interpreter().parent), os.environ["PATH"]))
         # Not the stubs: they would be compiled for another target.
         requirements = ("--requirement", HERE / "requirements-release.txt")
         run(interpreter(), "-m", "pip", "install", "--quiet", *requirements)

@@ -8,7 +8,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pfaff::configuration::KeptAnalysis;
 use pfaff::dynamics::linearise::LineariseOptions;
 use pfaff::import::{Axes, Base, FixedLinks, Folder, Options};
-use pfaff::memory::{Budget, of_reading};
+use pfaff::memory::Budget;
 use pfaff::model::codes::Code;
 use pfaff::model::{Mechanism, Registry, System, Tolerance};
 use pfaff::refusal::{Refusal, json};
@@ -17,7 +17,6 @@ use pfaff::report::{
     AnalysisDocument, Column as ReportColumn, Origin, OutputDirectory, ReactionColumn, Trajectory,
 };
 use pfaff::scene::{KeyError, Template};
-use pfaff::solvability::memory_of_verdicts;
 use pfaff::study::EndedRun;
 use pfaff::{AssembledScene, Overrides, Study, StudyError, source};
 use pyo3::prelude::*;
@@ -155,10 +154,7 @@ impl Source {
             // A limit refuses the same scenes whether or not they are known.
             if budget.limit.is_some() {
                 let (_, mechanism) = judged.parts();
-                let verdicts = memory_of_verdicts(mechanism, pfaff::threads());
-                let verdicts = verdicts.map_err(|e| self.fault(e.into()))?;
-                let all = of_reading(self.text.len()).saturating_add(verdicts);
-                budget.allow(all, "deciding the ranks of this scene")?;
+                budget.allow_scene((&self.name, &self.text), mechanism)?;
             }
             return Ok(judged);
         }

@@ -4,7 +4,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use model::codes::Code;
-use model::{Registry, Tolerance};
+use model::{Mechanism, Registry, Tolerance};
+use solvability::memory_of_verdicts;
 
 use super::of_reading;
 use crate::assembled::AssembledScene;
@@ -68,16 +69,37 @@ impl Budget {
         registry: &Registry,
         tolerance: Tolerance,
     ) -> Result<AssembledScene, Refusal> {
-        let refused = |error| Refusal::of((name, text), error);
-        let reading = of_reading(text.len());
-        self.allow(reading, "reading this scene")?;
+        self.allow_reading(text)?;
         let assembled = AssembledScene::read(name, text, registry)
             .and_then(|assembled| assembled.stating(tolerance))
-            .map_err(refused)?;
-        let verdicts = assembled.memory_of_verdicts(crate::threads());
-        let needed = reading.saturating_add(verdicts.map_err(refused)?);
-        self.allow(needed, "deciding the ranks of this scene")?;
+            .map_err(|e| Refusal::of((name, text), e))?;
+        self.allow_scene((name, text), &assembled.mechanism)?;
         Ok(assembled)
+    }
+
+    /// Refuses a scene, given by its name, its text and its mechanism, if the memory does not
+    /// suffice for the mechanism and its verdicts.
+    ///
+    /// # Errors
+    /// As [`Self::allow`], or elimination would take too many operations.
+    pub fn allow_scene(
+        self,
+        (name, text): (&str, &str),
+        mechanism: &Mechanism,
+    ) -> Result<(), Refusal> {
+        let reading = self.allow_reading(text)?;
+        let verdicts = memory_of_verdicts(mechanism, crate::threads());
+        let verdicts = verdicts.map_err(|e| Refusal::of((name, text), e.into()))?;
+        self.allow(
+            reading.saturating_add(verdicts),
+            "deciding the ranks of this scene",
+        )
+    }
+
+    fn allow_reading(self, text: &str) -> Result<usize, Refusal> {
+        let reading = of_reading(text.len());
+        self.allow(reading, "reading this scene")?;
+        Ok(reading)
     }
 }
 
