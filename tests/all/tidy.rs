@@ -141,7 +141,7 @@ fn the_test_command_of_the_readme_is_that_of_the_checks() {
     let checks = read(".ci/run");
     let steps: Vec<&str> = checks
         .lines()
-        .filter_map(|line| line.strip_prefix("step "))
+        .filter_map(|line| line.trim_start().strip_prefix("step "))
         .filter(|step| step.starts_with("cargo test"))
         .collect();
     assert_eq!(steps, [test]);
