@@ -1,9 +1,9 @@
 """Builds the wheel of the package and installs it into an environment of its own.
 
 `python python/build.py` from the root, or from anywhere: the environment is `python/target/venv`,
-the wheel goes to `python/target/wheels`. The stubs of the private module are made of the compiled
-module and compared with `package/pfaff/_pfaff.pyi`; `--write-stubs` writes them. `--quick` compiles
-faster, for tests: with little optimisation. `--portable` links for Linux systems with an older C
+the wheel goes to `python/target/wheels`. `--quick` compiles faster, for tests: with little
+optimisation. Then the stubs of the private module are made of the compiled module, too, and compared
+with `package/pfaff/_pfaff.pyi`; `--write-stubs` writes them. `--portable` links for Linux systems with an older C
 library, glibc 2.28 and later; without it the wheel needs the glibc of this machine. Needs Python >=
 3.10 with venv and pip, cargo, and on the first run the network.
 """
@@ -82,8 +82,8 @@ def wheel(profile: str, extra: Sequence[str]) -> Path:
 def stubs(profile: str, write: bool) -> None:
     """Compares the stubs of the private module with the compiled one, or writes them.
 
-    They are read from symbols that the wheel is stripped of, so the module is linked twice; all
-    other crates are compiled once.
+    In a release they would be compiled again: they are read from symbols that its wheel is stripped
+    of. `test.py` compares stubs and module there, too.
     """
     folder = TARGET / "stubs"
     shutil.rmtree(folder, ignore_errors=True)
@@ -103,23 +103,21 @@ def main() -> None:
     parser.add_argument("--python", default=sys.executable, help="interpreter of the environment")
     parser.add_argument("--quick", action="store_true", help="compile faster, for tests")
     parser.add_argument("--portable", action="store_true", help="link for glibc 2.28 and later")
-    parser.add_argument("--write-stubs", action="store_true", help="write the stubs anew")
+    parser.add_argument("--write-stubs", action="store_true", help="write the stubs anew, quickly")
     parser.add_argument("--environment", action="store_true", help="make the environment alone")
     arguments = parser.parse_args()
     environment(arguments.python)
     if arguments.environment:
         return
-    profile = "quick" if arguments.quick else "release"
+    profile = "quick" if arguments.quick or arguments.write_stubs else "release"
     if arguments.portable:
         # Where maturin looks for Zig.
         os.environ["PATH"] = os.pathsep.join((str(interpreter().parent), os.environ["PATH"]))
-        # Not the stubs: they would be compiled for another target.
         requirements = ("--requirement", HERE / "requirements-release.txt")
         run(interpreter(), "-m", "pip", "install", "--quiet", *requirements)
-        made = wheel(profile, PORTABLE)
-    else:
+    made = wheel(profile, PORTABLE if arguments.portable else ())
+    if profile == "quick":
         stubs(profile, arguments.write_stubs)
-        made = wheel(profile, ())
     pip = (interpreter(), "-m", "pip", "--disable-pip-version-check", "install", "--quiet")
     run(*pip, "--force-reinstall", "--no-deps", made)
 
