@@ -14,6 +14,16 @@ pub(crate) const MOST_NODES: u32 = 1 << 19;
 /// `hostile_files_are_refused`.
 pub(crate) const DEEPEST: usize = 300;
 
+/// Most attributes of an element. Unit: number. Less: no element of a format has more than 60, but
+/// extensions may. More: time, which grows with the second power. Test:
+/// `many_attributes_cost_no_time`.
+pub(crate) const MOST_ATTRIBUTES: usize = 256;
+
+/// Most declarations of name spaces in a file. Unit: number. Less: files that repeat them in each
+/// element are refused. More: time, as all of them are in force within the elements that declare
+/// them. Test: `many_attributes_cost_no_time`.
+pub(crate) const MOST_NAME_SPACES: usize = 1024;
+
 /// Most files that are included. Unit: number. Less: a model of many parts is refused. More:
 /// memory. Test: `includes_stay_in_their_folder`.
 pub(crate) const MOST_FILES: usize = 64;

@@ -60,10 +60,11 @@ fn apply(
     text: &SourceText,
     findings: &mut Findings,
 ) -> Result<(), Wrong> {
-    for (k, key) in keys.iter().enumerate() {
-        let (name, line) = (key.name.as_str(), text.position(key.at).0);
-        if let Some(first) = keys[..k].iter().find(|of| of.name == name) {
-            let line = text.position(first.at).0;
+    let mut seen: HashMap<&str, usize> = HashMap::new();
+    for key in keys {
+        let (name, line) = (key.name.as_str(), text.line(key.at));
+        if let Some(first) = seen.insert(name, key.at) {
+            let line = text.line(first);
             return Err((
                 key.at,
                 format!("key `{name}` is there already, in line {line}"),
@@ -160,8 +161,10 @@ fn apply(
             "`joint_name` and `joint_type` have different lengths".into(),
         ));
     }
+    let joints = model.joints.iter().enumerate();
+    let joints: HashMap<String, usize> = joints.map(|(k, j)| (j.name.clone(), k)).collect();
     for ((name, at), (kind, of)) in names.into_iter().zip(kinds) {
-        let joint = model.joints.iter_mut().find(|joint| joint.name == name);
+        let joint = joints.get(name).and_then(|k| model.joints.get_mut(*k));
         let joint = joint.ok_or_else(|| (at, format!("there is no joint `{name}`")))?;
         if !matches!(joint.kind, Kind::Revolute | Kind::Fixed) {
             return Err((at, format!("joint `{name}` is no hinge")));

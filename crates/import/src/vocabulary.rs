@@ -130,7 +130,7 @@ fn find<'t>(table: &'t [Entry], around: &str, name: &str) -> Option<&'t Entry> {
 }
 
 fn attributes(entry: &Entry, element: Element, is_open: bool, findings: &mut Findings) {
-    let line = |place: &Range<usize>| element.source.position(place.start).0;
+    let line = |place: &Range<usize>| element.source.line(place.start);
     for (key, is_foreign, place) in element.keys() {
         match entry.find(key) {
             Meaning::Known if !is_foreign => continue,

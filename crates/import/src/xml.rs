@@ -6,7 +6,7 @@ use model::codes::Code;
 use roxmltree::{Document, Node, ParsingOptions};
 use scene::{Diagnostic, SourceText};
 
-use crate::limits::{DEEPEST, LARGEST, MOST_NODES};
+use crate::limits::{DEEPEST, LARGEST, MOST_ATTRIBUTES, MOST_NAME_SPACES, MOST_NODES};
 
 /// An element of a file.
 #[derive(Clone, Copy)]
@@ -28,7 +28,7 @@ pub(crate) struct Value<'a> {
 impl Value<'_> {
     /// The line at which it begins.
     pub(crate) fn line(&self) -> usize {
-        self.source.position(self.span.start).0
+        self.source.line(self.span.start)
     }
 }
 
@@ -52,7 +52,7 @@ impl<'a> Element<'a> {
     }
 
     pub(crate) fn line(&self) -> usize {
-        self.source.position(self.node.range().start).0
+        self.source.line(self.node.range().start)
     }
 
     /// The elements within it, less those of other name spaces.
@@ -162,9 +162,8 @@ pub(crate) fn parse(source: &SourceText) -> Result<Document<'_>, Box<Diagnostic>
         let message = format!("a file of {} bytes: at most {LARGEST} are read", text.len());
         return refuse(LARGE, 0..0, message, "too large");
     }
-    if let Some(at) = too_deep(text) {
-        let message = format!("elements within more than {DEEPEST} others are not read");
-        return refuse(LARGE, at..at + 1, message, "too deep");
+    if let Some((at, message)) = too_much(text) {
+        return refuse(LARGE, at..at + 1, message, "too much");
     }
     let options = ParsingOptions {
         allow_dtd: false,
@@ -197,26 +196,99 @@ pub(crate) fn parse(source: &SourceText) -> Result<Document<'_>, Box<Diagnostic>
     }
 }
 
-/// Where elements are nested too deeply: counted without a parser, which may need its stack.
-/// Comments and sections of characters may hold tags, too: counting them only refuses earlier.
-fn too_deep(text: &str) -> Option<usize> {
-    let (mut depth, bytes) = (0_usize, text.as_bytes());
-    for (at, _) in text.match_indices('<') {
-        match bytes.get(at + 1) {
-            Some(b'/') => depth = depth.saturating_sub(1),
-            Some(b'!' | b'?') | None => {}
-            Some(_) => {
-                let end = text[at..].find('>').map_or(text.len(), |end| at + end);
-                if end > 0 && bytes.get(end - 1) != Some(&b'/') {
-                    depth += 1;
-                }
-            }
-        }
-        if depth > DEEPEST {
-            return Some(at);
-        }
+/// Where a text has more than a parser takes without its stack, or in a time that is proportional
+/// to its length: it looks for each attribute among all others of its element, and for each prefix
+/// among all name spaces.
+fn too_much(text: &str) -> Option<(usize, String)> {
+    let (mut depth, mut spaces) = (0_usize, 0);
+    let tags = Tags { text, at: 0 };
+    for tag in tags {
+        depth = match tag.kind {
+            Kind::Opens => depth + 1,
+            Kind::Closes => depth.saturating_sub(1),
+            Kind::IsEmpty => depth,
+        };
+        spaces += tag.spaces;
+        let message = if depth > DEEPEST {
+            format!("elements within more than {DEEPEST} others are not read")
+        } else if tag.attributes > MOST_ATTRIBUTES {
+            format!("an element with more than {MOST_ATTRIBUTES} attributes is not read")
+        } else if spaces > MOST_NAME_SPACES {
+            format!("more than {MOST_NAME_SPACES} declarations of name spaces are not read")
+        } else {
+            continue;
+        };
+        return Some((tag.at, message));
     }
     None
+}
+
+/// The tags of a text, as far as it is XML.
+struct Tags<'t> {
+    text: &'t str,
+    at: usize,
+}
+
+/// A tag: where it begins, what it does, how many attributes it has, and how many of these declare
+/// name spaces.
+struct Tag {
+    at: usize,
+    kind: Kind,
+    attributes: usize,
+    spaces: usize,
+}
+
+enum Kind {
+    Opens,
+    Closes,
+    IsEmpty,
+}
+
+impl Iterator for Tags<'_> {
+    type Item = Tag;
+
+    fn next(&mut self) -> Option<Tag> {
+        loop {
+            let at = self.at + self.text[self.at..].find('<')?;
+            let rest = &self.text[at..];
+            let aside = [
+                ("<!--", "-->"),
+                ("<![CDATA[", "]]>"),
+                ("<?", "?>"),
+                ("<!", ">"),
+            ];
+            let aside = aside.iter().find(|(begin, _)| rest.starts_with(begin));
+            if let Some((begin, end)) = aside {
+                self.at = at + begin.len() + rest[begin.len()..].find(end)? + end.len();
+                continue;
+            }
+            let mut tag = Tag {
+                at,
+                kind: Kind::Opens,
+                attributes: 0,
+                spaces: 0,
+            };
+            let mut word = 1;
+            loop {
+                let sign = word + rest[word..].find(['"', '\'', '>'])?;
+                let before = rest[word..sign].trim();
+                let Some(quote) = rest[sign..].chars().next().filter(|sign| *sign != '>') else {
+                    if rest[1..].starts_with('/') {
+                        tag.kind = Kind::Closes;
+                    } else if before.ends_with('/') {
+                        tag.kind = Kind::IsEmpty;
+                    }
+                    self.at = at + sign + 1;
+                    return Some(tag);
+                };
+                tag.attributes += 1;
+                // The first one has the name of the element before it.
+                let key = before.split_whitespace().next_back();
+                tag.spaces += usize::from(key.is_some_and(|key| key.starts_with("xmlns")));
+                word = sign + 2 + rest[sign + 1..].find(quote)?;
+            }
+        }
+    }
 }
 
 /// The byte of a place of the parser.

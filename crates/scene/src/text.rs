@@ -47,7 +47,8 @@ impl SourceText {
     }
 
     /// Line of a byte offset, from 1.
-    pub(crate) fn line(&self, offset: usize) -> usize {
+    #[must_use]
+    pub fn line(&self, offset: usize) -> usize {
         let offset = self.boundary(offset);
         self.line_starts
             .partition_point(|&start| start <= offset)

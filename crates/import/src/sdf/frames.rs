@@ -134,7 +134,7 @@ impl Frames {
                 if chain.len() > self.places.len() {
                     let message = format!("the pose of `{name}` is relative to itself");
                     findings.of(Fault::Structure, model, message);
-                    chain.clear();
+                    // Its names get some poses, so that the others do not find it again.
                     break;
                 }
                 at = place.base.as_ref();

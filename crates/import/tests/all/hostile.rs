@@ -29,6 +29,71 @@ fn hostile_files_are_refused() {
     }
 }
 
+/// An element with 64 000 attributes or name spaces, also where a value, a comment or a section
+/// looks like the end of it, and a list of loops with 64 000 keys.
+#[test]
+fn many_attributes_cost_no_time() {
+    let many = |what: &str| -> String { (0..64_000).map(|k| format!("{what}{k}='1' ")).collect() };
+    let begin = std::time::Instant::now();
+    for text in [
+        format!("<robot {}/>", many("a")),
+        format!("<robot b='>' c=\"'/>\" {}/>", many("a")),
+        format!("<!-- ' --><robot {}/>", many("a")),
+        format!(
+            "<robot><![CDATA[ <'> ]]><?x '?><link {}/></robot>",
+            many("a")
+        ),
+        format!("<robot {}/>", many("xmlns:a")),
+        format!("<robot>{}</robot>", "<link xmlns:a='b'/>".repeat(64_000)),
+    ] {
+        assert_eq!(first(&refused(&text)).0, "P0603", "{}", &text[..40]);
+    }
+    let robot = "<robot name='r'><link name='base'/><link name='rod'><inertial><mass value='1'/>\
+                 <inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>\
+                 <joint name='j' type='revolute'><parent link='base'/><child link='rod'/>\
+                 <axis xyz='0 0 1'/></joint></robot>";
+    let keys: String = (0..64_000).map(|k| format!("key{k}: 1\n")).collect();
+    let options = Options {
+        loops: Some((
+            "loops.yaml".to_owned(),
+            keys + "closed_loop: []\ntype: []\n",
+        )),
+        ..Options::default()
+    };
+    let done = import::import("robot.urdf", robot, &options).expect("imported");
+    assert_eq!(done.omissions.len(), 64_000);
+    // Elements in one line, each of which is left out.
+    let left = "<x/>".repeat(64_000);
+    let wide = robot.replacen("<link", &format!("{left}<link"), 1);
+    let done = import::import("robot.urdf", &wide, &Options::default()).expect("imported");
+    assert_eq!(done.omissions.len(), 64_000);
+    // Poses in one circle.
+    let frame = |k: usize| {
+        let next = (k + 1) % 8_000;
+        format!("<frame name='f{k}'><pose relative_to='f{next}'>0 0 0 0 0 0</pose></frame>")
+    };
+    let circle: String = (0..8_000).map(frame).collect();
+    let circle =
+        format!("<sdf version='1.7'><model name='m'><link name='l'/>{circle}</model></sdf>");
+    assert_eq!(first(&refused(&circle)).0, "P0609");
+    // Proportional to their lengths: less than a second; comparing all with all takes minutes here.
+    assert!(begin.elapsed() < PATIENCE, "{:?}", begin.elapsed());
+}
+
+/// Time for files of a megabyte, without optimisation and on a busy machine.
+const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
+
+/// As many as are allowed, and quotes within quotes.
+#[test]
+fn attributes_within_the_limit_are_read() {
+    let many: String = (0..250)
+        .map(|k| format!("a{k}='\"<' ").replace('<', ""))
+        .collect();
+    let text = format!("<robot name='r' {many}/>");
+    // An empty robot, but one that was read.
+    assert_eq!(first(&refused(&text)).0, "P0609");
+}
+
 /// As deep as is allowed, on the stack of a thread.
 #[test]
 fn deep_files_are_read() {
