@@ -45,7 +45,7 @@ pub(crate) const NULL_SPACE_MOST: usize = 5000;
 /// Vectors of all coordinates, velocities and rows that a run holds.
 /// Unit: vectors. Less: the estimate of memory is too small. More: runs are refused that fit. Test:
 /// none, work only.
-pub(crate) const VECTORS: usize = 60;
+pub(crate) const VECTORS: usize = 38;
 
 /// Solutions of mechanisms larger than this, or smaller than its inverse, are refined.
 /// Unit: m. Less: ordinary machines pay for refinement. More: weights and centrifugal terms that

@@ -1,5 +1,6 @@
-//! Estimates the memory for work on a scene before it is allocated, from sizes and sparsity
-//! patterns only. The estimates are meant to be upper bounds.
+//! Estimates the memory for work on a scene before it is allocated, from counted sizes and sparsity
+//! patterns only: right to a fifth for scenes of many bodies (`resources.rs` in the tests of the
+//! command measures it).
 
 #[cfg(feature = "messages")]
 mod budget;
@@ -11,19 +12,24 @@ use solvability::memory_of_verdicts;
 use crate::assembled::AssembledScene;
 use crate::error::StudyError;
 use crate::study::Study;
+use model::System;
 
 #[cfg(feature = "messages")]
 pub use budget::{Budget, Bytes};
 
-/// Bytes for each byte of a scene: its text, its tables with their places, the mechanism and its
-/// names.
-const OF_TEXT: usize = 45;
+/// Bytes for each byte of a scene: its text and its tables with their places.
+const OF_TEXT: usize = 24;
 
-/// Bytes that are always needed.
-const FLOOR: usize = 10 << 20;
+/// Bytes that are always needed: the program itself and its streams.
+const FLOOR: usize = 18_500_000;
 
-/// Estimated upper bound (bytes) on the memory for reading a text of this length, including its
-/// mechanism.
+/// Bytes that each run needs besides: buffers of its files, and its page.
+const OF_RUN: usize = 5_400_000;
+
+/// Bytes of a joint, drive or coupling in a run: its columns, its peaks and its verdicts.
+const OF_COLUMNS: usize = 4_000;
+
+/// Estimated memory (bytes) for reading a text of this length.
 ///
 /// ```
 /// // A scene of a megabyte.
@@ -34,26 +40,38 @@ pub fn of_reading(text: usize) -> usize {
     FLOOR + OF_TEXT.saturating_mul(text)
 }
 
+/// Bytes for each byte of a file to import: its elements, the model, and the text of the scene.
+const OF_IMPORT: usize = 45;
+
+/// Estimated memory (bytes) for importing a text of this length, without the files that it
+/// includes.
+#[must_use]
+pub fn of_import(text: usize) -> usize {
+    FLOOR + OF_IMPORT.saturating_mul(text)
+}
+
 impl AssembledScene {
-    /// Estimated upper bound (bytes) on the memory of ranks, kept rows and verdicts on this number
-    /// of threads, in addition to the scene: see [`memory_of_verdicts`].
+    /// Estimated memory (bytes) of the mechanism, its ranks, kept rows and verdicts on this number
+    /// of threads, in addition to the text: see [`memory_of_verdicts`].
     ///
     /// # Errors
     /// [`StudyError::Analysis`]: elimination would take too many operations for a sparse decision.
     pub fn memory_of_verdicts(&self, threads: usize) -> Result<usize, StudyError> {
-        Ok(memory_of_verdicts(&self.mechanism, threads)?)
+        Ok(memory_of_verdicts(&self.mechanism, threads)?.most(0))
     }
 }
 
 impl Study {
-    /// Estimated upper bound (bytes) on the memory of a run, including the reading of a text of
-    /// this length and the verdicts at the start.
+    /// Estimated memory (bytes) of a run, including the reading of a text of this length and the
+    /// verdicts at the start.
     ///
     /// # Errors
     /// [`StudyError::Analysis`]: elimination would take too many operations for a sparse decision.
     pub fn memory(&self, text: usize) -> Result<usize, StudyError> {
-        let verdicts = memory_of_verdicts(&self.prepared.mechanism, crate::threads())?;
-        // Verdicts are computed before the run, and afterwards take little memory.
-        Ok(of_reading(text) + verdicts.max(self.prepared.memory()))
+        let mechanism = &self.prepared.mechanism;
+        let verdicts = memory_of_verdicts(mechanism, crate::threads())?;
+        let columns = OF_COLUMNS * mechanism.layout().groups.len();
+        let run = OF_RUN + columns + self.prepared.memory();
+        Ok(of_reading(text) + verdicts.most(run))
     }
 }

@@ -115,7 +115,7 @@ pub use judged::{ComponentVerdict, Dependency, ReactionVerdict, RowVerdict};
 pub use limits::{CARRIED_VECTORS, FRAGILE, KERNEL_MAX, MOTIONS_REPORTED, MOVED, ONE_PART};
 pub use make_unique::{Allowed, Proposal, Proposals, make_unique};
 pub use matrices::{QueryError, Solvability};
-pub use memory::memory_of_verdicts;
+pub use memory::{VerdictMemory, memory_of_verdicts};
 pub use model::ConstraintLevel;
 pub use moments::MomentVerdict;
 pub use parts::{Extent, PartAnalysis, PartDecision};

@@ -700,13 +700,31 @@ pub(crate) const SAME_EFFECT: f64 = 1.01;
 
 // Memory and words.
 
-/// Bytes of the verdict of a joint with its rows, its components and its name.
+/// Bytes of a joint, drive or coupling with its verdict, its components and its name, also in the
+/// answer.
 /// Unit: bytes. Less: memory runs out. More: runs are refused. Test: none, work only.
-pub(crate) const OF_VERDICT: usize = 1500;
+pub(crate) const OF_GROUP: usize = 6500;
+
+/// Bytes of a row with its verdict.
+/// Unit: bytes. Less: memory runs out. More: runs are refused. Test: none, work only.
+pub(crate) const OF_ROW: usize = 700;
+
+/// Bytes of an entry of the matrix of rows, in all of its orders.
+/// Unit: bytes. Less: memory runs out. More: runs are refused. Test: none, work only.
+pub(crate) const OF_ENTRY: usize = 350;
+
+/// Bytes of a velocity with its body.
+/// Unit: bytes. Less: memory runs out. More: runs are refused. Test: none, work only.
+pub(crate) const OF_VELOCITY: usize = 340;
 
 /// Matrices of all rows and columns that are held at once where a small mechanism is judged.
 /// Unit: matrices. Less: memory runs out. More: runs are refused. Test: none, work only.
-pub(crate) const DENSE_MATRICES: usize = 24;
+pub(crate) const DENSE_MATRICES: usize = 16;
+
+/// Matrices of all rows and columns that are held at once where the rank of several parts is
+/// certified.
+/// Unit: matrices. Less: memory runs out. More: runs are refused. Test: none, work only.
+pub(crate) const CERTIFIED_MATRICES: usize = 9;
 
 /// Farthest point about which a moment is asked of itself, in sizes of the mechanism: free wrenches
 /// that are couples but for rounding have one at infinity.

@@ -1,47 +1,89 @@
 //! Estimates the memory of ranks and verdicts before it is allocated.
 
 use crate::error::AnalysisError;
-use crate::limits::{DENSE_MATRICES, OF_VERDICT, ONE_PART, ROWS_MAX, SPARSE_FROM};
+use crate::limits::{
+    CERTIFIED_MATRICES, DENSE_MATRICES, OF_ENTRY, OF_GROUP, OF_ROW, OF_VELOCITY, ONE_PART,
+    ROWS_MAX, SPARSE_FROM,
+};
 use crate::pose::evaluated;
-use model::{Mechanism, System};
+use model::{Mechanism, Scratch, System};
 use rank::SparsePattern;
 
 use crate::parts::parts;
 use crate::sparse::{blocks, rows_of, sketch_of};
 
-/// Estimated upper bound (bytes) on the memory of ranks, kept rows and verdicts of a mechanism, not
-/// counting the mechanism itself: the part with most rows, on each of `threads` threads, and all
-/// verdicts.
+/// Estimated memory (bytes) of a mechanism with its ranks, kept rows and verdicts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VerdictMemory {
+    /// The mechanism.
+    pub mechanism: usize,
+    /// What only the decision takes: the largest parts, one on each thread.
+    pub work: usize,
+    /// What is found, after the decision: verdicts and what explains them.
+    pub results: usize,
+}
+
+impl VerdictMemory {
+    /// Up to the results, and with so much that is needed besides these.
+    #[must_use]
+    pub fn most(self, besides: usize) -> usize {
+        self.mechanism + self.work.max(self.results + besides)
+    }
+}
+
+/// Estimates the memory of a mechanism with its ranks, kept rows and verdicts on this number of
+/// threads: proportional to the numbers of its velocities, its joints, drives and couplings, its
+/// rows and their entries; and the matrices of the largest parts.
 ///
 /// # Errors
 /// [`AnalysisError::Large`]: rows are joined too closely for a sparse decision.
-pub fn memory_of_verdicts(mechanism: &Mechanism, threads: usize) -> Result<usize, AnalysisError> {
+pub fn memory_of_verdicts(
+    mechanism: &Mechanism,
+    threads: usize,
+) -> Result<VerdictMemory, AnalysisError> {
     let layout = mechanism.layout();
-    let results = OF_VERDICT * layout.groups.len();
-    if layout.rows() <= ONE_PART {
-        return Ok(results + dense(layout.rows(), layout.n_v));
-    }
     let (q, _) = mechanism.described_state();
     let s = evaluated(mechanism, 0.0, &q);
-    let mut most = 0;
-    for part in parts(mechanism, &s) {
+    let rows = layout.rows();
+    let entries = rows_of(mechanism, &s, 0..rows, |_| 1.0).nnz();
+    Ok(VerdictMemory {
+        mechanism: OF_VELOCITY * layout.n_v,
+        work: of_decision(mechanism, &s, threads)?,
+        results: OF_GROUP * layout.groups.len() + OF_ROW * rows + OF_ENTRY * entries,
+    })
+}
+
+fn of_decision(mechanism: &Mechanism, s: &Scratch, threads: usize) -> Result<usize, AnalysisError> {
+    let layout = mechanism.layout();
+    let rows = layout.rows();
+    if rows <= ONE_PART {
+        return Ok(dense(DENSE_MATRICES, rows, layout.n_v));
+    }
+    let certificate = if rows <= ROWS_MAX {
+        dense(CERTIFIED_MATRICES, rows, layout.n_v)
+    } else {
+        0
+    };
+    let mut sizes = Vec::new();
+    for part in parts(mechanism, s) {
         let rows: usize = part.iter().map(|&k| layout.groups[k].rows.len()).sum();
-        // A part with fewer rows than another one takes less memory.
         if rows > SPARSE_FROM {
             let part = mechanism.part_of_groups(&part).mechanism;
-            most = most.max(of_part(&part, s.t)?);
+            sizes.push(of_part(&part, s.t)?);
         } else {
-            most = most.max(dense(rows, layout.space.n_v() * rows));
+            sizes.push(dense(DENSE_MATRICES, rows, layout.space.n_v() * rows));
         }
     }
-    Ok(results + threads * most)
+    sizes.sort_unstable();
+    let at_once: usize = sizes.iter().rev().take(threads).sum();
+    Ok(certificate.max(at_once))
 }
 
 fn of_part(part: &Mechanism, time: f64) -> Result<usize, AnalysisError> {
     let layout = part.layout();
     let rows = layout.rows();
     if rows <= ROWS_MAX {
-        return Ok(dense(rows, layout.n_v));
+        return Ok(dense(DENSE_MATRICES, rows, layout.n_v));
     }
     let c = rows_of(part, &part.scratch(), 0..rows, |_| 1.0);
     let pattern = SparsePattern::new(&c, &blocks(part)).map_err(|source| AnalysisError::Large {
@@ -52,6 +94,6 @@ fn of_part(part: &Mechanism, time: f64) -> Result<usize, AnalysisError> {
     Ok(pattern.bytes(sketch_of(part)))
 }
 
-fn dense(rows: usize, columns: usize) -> usize {
-    DENSE_MATRICES * size_of::<f64>() * rows * columns
+fn dense(matrices: usize, rows: usize, columns: usize) -> usize {
+    matrices * size_of::<f64>() * rows * columns
 }
