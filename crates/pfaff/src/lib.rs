@@ -18,12 +18,10 @@
 //! | [`mod@sweep`] | many runs with different numbers |
 //! | [`mod@tolerance`] | many mechanisms with data within their tolerances |
 //! | [`mod@work_precision`] | error against run time |
-//! | [`memory`] | estimated memory |
+//! | [`memory`], `workers` | estimated memory; threads |
 //! | [`forked`] | parallel work in a process that was forked |
 //! | [`error`] | reasons why there are no results |
 //! | `refusal`, `source` (feature `messages`) | these reasons in words for people; texts of files |
-
-use std::num::NonZeroUsize;
 
 pub mod along_motion;
 pub mod assembled;
@@ -47,6 +45,7 @@ mod tables_of_run;
 pub mod tolerance;
 mod within;
 pub mod work_precision;
+mod workers;
 
 pub use dynamics;
 pub use import;
@@ -67,43 +66,7 @@ pub use error::StudyError;
 pub use report_builder::written_scene;
 pub use solvability::Numbers;
 pub use study::{Overrides, Study};
-
-/// Most threads of parallel computations.
-pub const MOST_THREADS: usize = 256;
-
-/// Starts the threads of all parallel computations of this program: as many as given, up to
-/// [`MOST_THREADS`], or one for each core. If the system does not allow so many, everything is
-/// computed on the thread that calls. Does nothing if they have been started already. Runs with
-/// several components have a separate option, [`dynamics::MotionOptions::threads`].
-pub fn start_threads(threads: Option<NonZeroUsize>) {
-    // rayon asks for its pool once: whether it can be had is tried before.
-    let pool = || rayon::ThreadPoolBuilder::new().num_threads(most(threads));
-    let global = match pool().build() {
-        Ok(_) => pool().build_global(),
-        Err(_) => alone().build_global(),
-    };
-    // It fails if there is a pool already.
-    drop(global);
-}
-
-/// A pool of its own for a part of a program, like that of [`start_threads`].
-pub(crate) fn pool(
-    threads: Option<NonZeroUsize>,
-) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(most(threads));
-    pool.build().or_else(|_| alone().build())
-}
-
-fn most(threads: Option<NonZeroUsize>) -> usize {
-    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    threads.map_or(cores, NonZeroUsize::get).min(MOST_THREADS)
-}
-
-fn alone() -> rayon::ThreadPoolBuilder {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .use_current_thread()
-}
+pub use workers::{MOST_THREADS, start_threads, threads};
 
 /// The results of two computations, run in parallel if there are threads for both, otherwise one
 /// after the other.
@@ -112,12 +75,6 @@ pub fn both<A: Send, B: Send>(
     b: impl FnOnce() -> B + Send,
 ) -> (A, B) {
     rayon::join(a, b)
-}
-
-/// Number of threads of parallel computations.
-#[must_use]
-pub fn threads() -> usize {
-    rayon::current_num_threads()
 }
 
 #[cfg(feature = "macros")]

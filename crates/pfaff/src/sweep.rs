@@ -66,8 +66,7 @@ impl Sweep<'_> {
     /// # Errors
     /// - [`SweepError::NoneBegins`]: no run of the sweep can begin; nothing is written.
     /// - [`SweepError::Journal`]: the directory belongs to another sweep.
-    /// - [`SweepError::File`], [`SweepError::Table`], [`SweepError::Threads`]: the operating system
-    ///   reported an error.
+    /// - [`SweepError::File`], [`SweepError::Table`]: the operating system reported an error.
     pub fn run_into(
         &self,
         directory: &Path,

@@ -31,6 +31,7 @@ use rayon::prelude::*;
 use report::documents::ToleranceDocument;
 
 use crate::assembled::AssembledScene;
+use crate::workers::Workers;
 use nominal::Nominal;
 
 pub use error::ToleranceError;
@@ -145,7 +146,6 @@ impl<'r> ToleranceStudy<'r> {
     ///
     /// # Errors
     /// - [`ToleranceError::Samples`]: their number is out of its range.
-    /// - [`ToleranceError::Threads`]: the system does not start threads.
     pub fn run(
         &self,
         options: &ToleranceOptions,
@@ -156,7 +156,7 @@ impl<'r> ToleranceStudy<'r> {
         if !(1..=SAMPLES_MAX).contains(&samples) {
             return Err(ToleranceError::Samples { samples });
         }
-        let pool = crate::pool(options.threads).map_err(ToleranceError::Threads)?;
+        let workers = Workers::start(options.threads);
         let make = |number: u64| {
             if interrupted() {
                 return None;
@@ -166,7 +166,7 @@ impl<'r> ToleranceStudy<'r> {
             Some(sample)
         };
         let all = 1..=samples as u64;
-        let made: Vec<Sample> = pool.install(|| all.into_par_iter().filter_map(make).collect());
+        let made: Vec<Sample> = workers.install(|| all.into_par_iter().filter_map(make).collect());
         Ok(ToleranceResult {
             document: self.nominal.document(options, self.list(), &made),
             samples: made,

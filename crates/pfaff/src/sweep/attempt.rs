@@ -12,6 +12,7 @@ use super::job::Keep;
 use super::make::TOGETHER;
 use super::varied::reason;
 use super::{Sweep, SweepError, gate};
+use crate::workers::Workers;
 
 /// A run is the cause if its process has ended so often while it made no other run. Once may be an
 /// accident, or somebody who was impatient.
@@ -103,14 +104,14 @@ impl<'a, P: FnMut(SweepProgress<'_>) + Send> Attempt<'a, P> {
             pending.partition(|run| known.suspects.contains_key(run));
         // More threads than runs would be idle.
         let threads = NonZeroUsize::new(threads.min(others.len().max(1)));
-        let pool = crate::pool(threads).map_err(SweepError::Threads)?;
-        pool.install(|| self.make_alone(known, &suspects))?;
-        let n = pool.current_num_threads().max(1);
+        let workers = Workers::start(threads);
+        workers.install(|| self.make_alone(known, &suspects))?;
+        let n = workers.number();
         // Small groups if there are few runs, so that threads end at the same time.
         let size = others.len().div_ceil(4 * n).clamp(1, TOGETHER);
         let groups: Vec<&[u64]> = others.chunks(size).collect();
         let next = AtomicUsize::new(0);
-        let ended = pool.broadcast(|_| {
+        let ended = workers.broadcast(|| {
             let ended = self.make_groups(&groups, &next);
             if ended.is_err() {
                 self.fails.store(true, Ordering::Relaxed);

@@ -35,9 +35,6 @@ pub enum SweepError {
     /// The results in the directory cannot be continued.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// The threads could not be started.
-    #[error("cannot start threads: {0}")]
-    Threads(rayon::ThreadPoolBuildError),
     /// A file could not be written.
     #[error(transparent)]
     File(#[from] FileError),
@@ -56,7 +53,6 @@ impl SweepError {
             Self::Axis(e) => e.code(),
             Self::NoneBegins { .. } => const { Code::new(503) },
             Self::Journal(e) => e.code(),
-            Self::Threads(_) => const { Code::new(508) },
             Self::File(e) => e.code(),
             Self::Table(e) => e.code(),
         }
@@ -72,7 +68,7 @@ impl SweepError {
             Self::Key(_) | Self::Axis(_) | Self::NoneBegins { .. } => true,
             Self::Journal(e) => e.is_input(),
             Self::File(e) => e.is_place(),
-            Self::Threads(_) | Self::Table(_) => false,
+            Self::Table(_) => false,
         }
     }
 }

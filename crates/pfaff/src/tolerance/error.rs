@@ -50,9 +50,6 @@ pub enum ToleranceError {
         /// Its rows.
         rows: usize,
     },
-    /// The threads could not be started.
-    #[error("cannot start threads: {0}")]
-    Threads(rayon::ThreadPoolBuildError),
 }
 
 impl ToleranceError {
@@ -66,7 +63,6 @@ impl ToleranceError {
             Self::NoTolerance | Self::NoData => const { Code::new(510) },
             Self::Samples { .. } => const { Code::new(511) },
             Self::TooLarge { .. } => const { Code::new(512) },
-            Self::Threads(_) => const { Code::new(508) },
         }
     }
 
@@ -81,7 +77,6 @@ impl ToleranceError {
             | Self::NoData
             | Self::Samples { .. }
             | Self::TooLarge { .. } => true,
-            Self::Threads(_) => false,
         }
     }
 }

@@ -1,0 +1,135 @@
+//! Threads of parallel computations. Where the system starts none, the thread that calls computes
+//! everything.
+
+use std::io::{self, ErrorKind};
+use std::num::NonZeroUsize;
+use std::sync::OnceLock;
+use std::sync::mpsc::{Sender, channel};
+use std::thread;
+
+use rayon::{ThreadBuilder, ThreadPool, ThreadPoolBuilder};
+
+/// Most threads of parallel computations.
+pub const MOST_THREADS: usize = 256;
+
+/// Starts the threads of all parallel computations of this program: as many as given, up to
+/// [`MOST_THREADS`], or one for each core. If the system does not allow so many, everything is
+/// computed on the thread that calls, and the answer is `false`. A second call does nothing and has
+/// the answer of the first. Runs with several components have a separate option,
+/// [`dynamics::MotionOptions::threads`].
+pub fn start_threads(threads: Option<NonZeroUsize>) -> bool {
+    static STARTED: OnceLock<bool> = OnceLock::new();
+    *STARTED.get_or_init(|| {
+        let waiting = waiting(most(threads));
+        let started = waiting.is_ok();
+        // It fails if the program has started a pool itself.
+        let _ = match waiting {
+            Ok(waiting) => {
+                let pool = ThreadPoolBuilder::new().num_threads(waiting.len());
+                pool.spawn_handler(to_these(waiting)).build_global()
+            }
+            Err(_) => {
+                let alone = ThreadPoolBuilder::new().num_threads(1);
+                alone.use_current_thread().build_global()
+            }
+        };
+        started
+    })
+}
+
+/// Number of threads of parallel computations.
+#[must_use]
+pub fn threads() -> usize {
+    rayon::current_num_threads()
+}
+
+/// The threads of a part of a program.
+pub(crate) enum Workers {
+    /// Of its own.
+    Own(ThreadPool),
+    /// The thread that calls.
+    Caller,
+}
+
+impl Workers {
+    /// Like [`start_threads`].
+    pub(crate) fn start(threads: Option<NonZeroUsize>) -> Self {
+        let waiting = waiting(most(threads)).ok();
+        let own = waiting.and_then(|waiting| {
+            let pool = ThreadPoolBuilder::new().num_threads(waiting.len());
+            pool.spawn_handler(to_these(waiting)).build().ok()
+        });
+        own.map_or_else(
+            || {
+                // What is computed in parallel needs some pool.
+                start_threads(None);
+                Self::Caller
+            },
+            Self::Own,
+        )
+    }
+
+    pub(crate) fn number(&self) -> usize {
+        match self {
+            Self::Own(pool) => pool.current_num_threads().max(1),
+            Self::Caller => 1,
+        }
+    }
+
+    /// The result of a computation on these threads.
+    pub(crate) fn install<R: Send>(&self, compute: impl FnOnce() -> R + Send) -> R {
+        match self {
+            Self::Own(pool) => pool.install(compute),
+            Self::Caller => compute(),
+        }
+    }
+
+    /// The results of the same computation on each of these threads.
+    pub(crate) fn broadcast<R: Send>(&self, compute: impl Fn() -> R + Sync) -> Vec<R> {
+        match self {
+            Self::Own(pool) => pool.broadcast(|_| compute()),
+            Self::Caller => vec![compute()],
+        }
+    }
+}
+
+fn most(threads: Option<NonZeroUsize>) -> usize {
+    let cores = thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    threads.map_or(cores, NonZeroUsize::get).min(MOST_THREADS)
+}
+
+/// Threads that wait for their work, so that a pool of them is there or no thread is: a pool that
+/// misses some cannot be begun again. They end if they get none.
+fn waiting(number: usize) -> io::Result<Vec<Sender<ThreadBuilder>>> {
+    let mut threads = Vec::with_capacity(number);
+    for _ in 0..number {
+        let (sender, receiver) = channel::<ThreadBuilder>();
+        let work = move || {
+            if let Ok(work) = receiver.recv() {
+                work.run();
+            }
+        };
+        match thread::Builder::new().spawn(work) {
+            Ok(handle) => threads.push((sender, handle)),
+            Err(e) => {
+                // Their memory is needed.
+                for (sender, handle) in threads {
+                    drop(sender);
+                    let _ = handle.join();
+                }
+                return Err(e);
+            }
+        }
+    }
+    Ok(threads.into_iter().map(|(sender, _)| sender).collect())
+}
+
+/// Hands the work of a pool to threads that wait for it.
+fn to_these(
+    mut waiting: Vec<Sender<ThreadBuilder>>,
+) -> impl FnMut(ThreadBuilder) -> io::Result<()> {
+    move |work| {
+        let thread = waiting.pop().ok_or(ErrorKind::NotFound)?;
+        thread.send(work).map_err(|_| ErrorKind::BrokenPipe.into())
+    }
+}
