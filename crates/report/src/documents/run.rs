@@ -69,7 +69,7 @@ pub struct RunDocument {
     pub partial: bool,
     /// Code of the reason why it ended early.
     pub code: Option<Code>,
-    /// Reason why it stopped.
+    /// Reason why it ended early.
     pub error: Option<String>,
     /// Last time reached (s).
     pub t_end: f64,
@@ -307,7 +307,10 @@ impl RunDocument {
         let options = run.plan.options();
         let (code, error) = match run.ending {
             Ending::Complete => (None, None),
-            Ending::Interrupted => (Some(const { Code::new(8) }), None),
+            Ending::Interrupted => (
+                Some(const { Code::new(8) }),
+                Some("it was interrupted".to_owned()),
+            ),
             Ending::Stopped(error) => (Some(error.code()), Some(error.to_string())),
         };
         let (mechanism, verdicts) = (&prepared.mechanism, run.verdicts.as_ref());

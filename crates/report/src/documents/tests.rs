@@ -510,7 +510,8 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     let mut partly = stretches.clone();
     partly.reactions[0].components[0].1 = VerdictTrack::constant([0.0, 1.5], Verdict::NotUnique);
     let open = RunDocument::new(&run(Ending::Interrupted, &partly));
-    assert!(open.partial && open.error.is_none());
+    assert!(open.partial);
+    assert_eq!(open.error.as_deref(), Some("it was interrupted"));
     let choices = open.choice.iter();
     let choices = choices.map(|c| (c.from, c.to, c.deleted_rows.as_slice()));
     let expected = [(0.0, 1.25, &[4][..]), (1.25, 1.5, &[2])];

@@ -93,7 +93,7 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         ),
     );
     if let Some(run) = page.run().filter(|run| run.partial) {
-        let why = run.error.as_deref().unwrap_or("it was interrupted");
+        let why = run.error.as_deref().unwrap_or_default();
         add(
             out,
             format_args!(
