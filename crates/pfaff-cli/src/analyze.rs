@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &Analyze, console: &Console<'_>) -> Outcome {
     let drop = rows_from_zero(arguments.drop.as_deref())?;
     let source =
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
-    arguments.resources.apply();
+    arguments.resources.apply(console);
     let assembled = arguments.resources.assembled(&source)?;
     let overrides = Overrides {
         drop: drop.clone(),

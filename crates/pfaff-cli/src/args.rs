@@ -21,7 +21,7 @@ use values::{chosen, joint_value, no_formulation};
 
 use crate::input::rows_from_zero;
 use crate::output::{Answer, Failure};
-use crate::resources::Resources;
+use crate::resources::{Memory, Resources};
 use crate::template::Template;
 
 /// Mechanisms with redundant constraints: how they move, and which of their joint reactions are
@@ -491,6 +491,8 @@ pub(crate) struct Import {
     /// Start at this keyframe of the file
     #[arg(long, value_name = "NAME")]
     pub(crate) keyframe: Option<String>,
+    #[command(flatten)]
+    pub(crate) memory: Memory,
     /// What is left out, and what was written, as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,

@@ -20,7 +20,7 @@ pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
         return watch::run(arguments, console);
     }
     Interrupt::ends_at_once()?;
-    arguments.resources.apply();
+    arguments.resources.apply(console);
     let source =
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     let checked = Checked::of(&source, arguments.resources)?;

@@ -100,6 +100,15 @@ impl<'c> Console<'c> {
         }
     }
 
+    /// Writes a remark among the errors, for people.
+    pub fn note(&self, text: &str) {
+        // One that cannot be written is not missed.
+        let _ = self
+            .err
+            .borrow_mut()
+            .write(format!("note: {text}\n").as_bytes());
+    }
+
     /// Whether answers are shown on a terminal.
     pub fn is_terminal(&self) -> bool {
         self.out.borrow().is_terminal

@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &Diff, console: &Console<'_>) -> Outcome {
     let read =
         |path| Ok::<_, Failure>(Source::read(path, settings, console)?.known(&arguments.known));
     let sources = [read(&arguments.a)?, read(&arguments.b)?];
-    arguments.resources.apply();
+    arguments.resources.apply(console);
     let [a, b] = &sources;
     let starts = [
         Start::of(a, arguments.resources)?,

@@ -6,14 +6,14 @@ use pfaff::dynamics::equilibrium::EquilibriumOptions;
 use pfaff::model::System;
 use pfaff::model::words::rounded;
 use pfaff::report::documents::{EquilibriumDocument, Named, ReactionAtRestDocument};
-use pfaff::report::{PROVENANCE, write_json};
+use pfaff::report::{Family, PROVENANCE, write_json};
 use pfaff::{Overrides, Study, StudyError};
 
 use crate::args::Equilibrium;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, columns, count, directory, unwritten, wrapped};
+use crate::output::{Failure, Files, Outcome, columns, count, directory, wrapped};
 
 /// Numbers below this share of the largest of their kind are shown as zero.
 const VISIBLE: f64 = 1e-12;
@@ -24,11 +24,14 @@ const SCENE: &str = "at-rest.toml";
 /// The document.
 const DOCUMENT: &str = "equilibrium.json";
 
+/// The files of a state at rest.
+const FAMILY: Family = Family(&[SCENE, DOCUMENT]);
+
 pub(crate) fn run(arguments: &Equilibrium, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
     let source =
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
-    let study = source.study(&Overrides::default(), arguments.resources)?;
+    let study = source.study(&Overrides::default(), arguments.resources, console)?;
     let options = EquilibriumOptions {
         stable: arguments.stable,
     };
@@ -78,17 +81,18 @@ fn write(
     Study::read(SCENE, text, source.registry, &Overrides::default()).map_err(|e| {
         Failure::stopped(format!("the scene that starts at rest cannot be read: {e}"))
     })?;
-    let place = directory(path, &[SCENE, DOCUMENT], force)?;
-    let put = |name: &str, content: &[u8]| place.write(name, content).map_err(|e| unwritten(&e));
+    let place = directory(path, FAMILY, force)?;
+    let mut files = Files::of(&place, FAMILY)?;
     let head = format!("{PROVENANCE} equilibrium: `start` says where bodies start, at rest\n");
-    put(SCENE, (head + text).as_bytes())?;
+    files.put(SCENE, (head + text).as_bytes())?;
     document.file = Some(SCENE.to_owned());
     let mut json = Vec::new();
     write_json(&mut json, document).map_err(|e| Failure::stopped(e.to_string()))?;
-    put(DOCUMENT, &json)?;
+    files.put(DOCUMENT, &json)?;
+    let beside = files.finish()?;
     let scene = path.join(SCENE);
     Ok(format!(
-        "\nwritten to {}: {SCENE}, {DOCUMENT}\n`pfaff simulate {scene}` and `pfaff linearise {scene}` start there\n",
+        "\nwritten to {}: {SCENE}, {DOCUMENT}\n`pfaff simulate {scene}` and `pfaff linearise {scene}` start there\n{beside}",
         path.display(),
         scene = scene.display(),
     ))

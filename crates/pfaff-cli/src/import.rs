@@ -3,17 +3,23 @@
 use std::path::Path;
 
 use pfaff::import::{Axes, FixedLinks, Folder, Imported, Omission, Options, Refusal};
+use pfaff::memory::{of_import, of_reading};
 use pfaff::report::documents::{ImportDocument, OmissionDocument};
 
 use crate::args::Import;
 use crate::console::Console;
 use crate::input::text_of;
-use crate::new::write;
-use crate::output::{self, Failure, Outcome, count, json, wrapped};
+use crate::interrupt::Interrupt;
+use crate::output::{
+    self, Failure, Outcome, Shortfall, count, json_or, replaces, wrapped, write_file,
+};
 
 pub(crate) fn run(arguments: &Import, console: &Console<'_>) -> Outcome {
+    Interrupt::ends_at_once()?;
     let standard_output = arguments.out.as_os_str() == "-";
     let (name, text) = text_of(&arguments.file)?;
+    let memory = of_import(text.len());
+    arguments.memory.allow(memory, "importing this file")?;
     let imported = pfaff::import::import(&name, &text, &options(arguments)?);
     let imported = imported.map_err(|refusal| refused(*refusal))?;
     if standard_output {
@@ -24,20 +30,26 @@ pub(crate) fn run(arguments: &Import, console: &Console<'_>) -> Outcome {
             console.print(&imported.scene)
         };
     }
-    write(&arguments.out, &imported.scene, arguments.force)?;
+    let memory = of_reading(imported.scene.len());
+    arguments.memory.allow(memory, "reading the scene")?;
     let file = arguments.out.display().to_string();
     let read = pfaff::scene::read(&file, &imported.scene, console.registry);
-    let scene_error = read.err().and_then(|list| Some(list.first()?.sentence()));
-    let is_fine = scene_error.is_none();
+    let shortfall = read.err().and_then(|list| {
+        let first = list.first()?;
+        let (code, error) = (first.code, first.sentence());
+        Some(Shortfall { code, error })
+    });
+    let scene = imported.scene.as_bytes();
+    write_file(&arguments.out, scene, replaces(arguments.force))?;
+    let error = shortfall.as_ref().map(|shortfall| shortfall.error.as_str());
     let answer = if arguments.json {
-        json(&document(&imported, &file, scene_error))?
+        json_or(shortfall.as_ref(), &document(&imported, &file, error))?
     } else {
-        words(&imported, &file, scene_error.as_deref())
+        words(&imported, &file, error)
     };
-    if is_fine {
-        console.print(&answer)
-    } else {
-        Err(console.incomplete(&answer))
+    match shortfall {
+        None => console.print(&answer),
+        Some(_) => Err(console.incomplete(&answer)),
     }
 }
 
@@ -74,7 +86,7 @@ fn refused(refusal: Refusal) -> Failure {
 fn document<'a>(
     imported: &'a Imported,
     file: &'a str,
-    scene_error: Option<String>,
+    scene_error: Option<&str>,
 ) -> ImportDocument<'a> {
     let left_out = |omission: &'a Omission| OmissionDocument {
         kind: omission.kind,
@@ -91,7 +103,7 @@ fn document<'a>(
         rotors: imported.rotors,
         remarks: &imported.remarks,
         left_out: imported.omissions.iter().map(left_out).collect(),
-        scene_error,
+        scene_error: scene_error.map(str::to_owned),
     }
 }
 

@@ -54,8 +54,9 @@ impl<'r> Source<'r> {
         &self,
         overrides: &Overrides,
         resources: Resources,
+        console: &Console<'_>,
     ) -> Result<Study, Failure> {
-        resources.apply();
+        resources.apply(console);
         let assembled = resources.assembled(self)?;
         let study = self.prepare(assembled, overrides);
         study.map_err(|e| self.failure(e))

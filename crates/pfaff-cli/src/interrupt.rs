@@ -17,6 +17,9 @@ use crate::output::{Answer, Failure};
 /// Code of the message of a command that was interrupted.
 pub(crate) const BY_REQUEST: Code = Code::new(8);
 
+/// The message of a command without results to keep.
+pub(crate) const NOTHING_WRITTEN: &str = "interrupted; nothing was written";
+
 /// Exit code of a program that was interrupted.
 const INTERRUPTED: i32 = 1;
 
@@ -81,7 +84,7 @@ impl Interrupt {
     /// # Errors
     /// As [`Interrupt::listen`].
     pub fn ends_at_once() -> Result<(), Failure> {
-        on_request(Action::End(INTERRUPTED, "interrupted; nothing was written"))
+        on_request(Action::End(INTERRUPTED, NOTHING_WRITTEN))
     }
 
     /// Starts listening for a command that runs until it is stopped: a request is its normal end,

@@ -6,7 +6,8 @@ use pfaff::dynamics::linearise::{Linearisation, LineariseOptions, Mode};
 use pfaff::model::System;
 use pfaff::report::documents::{LinearisationDocument, ModeDocument};
 use pfaff::report::{
-    Frame, MatrixTable, Recording, RunPage, Shows, TableError, modes_table, run_page, write_json,
+    Family, Frame, MatrixTable, Recording, RunPage, Shows, TableError, modes_table, run_page,
+    write_json,
 };
 use pfaff::{Overrides, Study};
 
@@ -14,11 +15,23 @@ use crate::args::Linearise;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, columns, count, directory, unwritten};
+use crate::output::{Failure, Files, Outcome, columns, count, directory};
 use crate::simulate::origin;
 
 /// Modes with pages of their own, first those that are not zero: others are in the tables only.
 const PAGES: usize = 12;
+
+/// The files of a linearisation: each matrix, the modes, and pages of modes.
+const FAMILY: Family = Family(&[
+    "a.csv",
+    "b.csv",
+    "m.csv",
+    "d.csv",
+    "k.csv",
+    "modes.csv",
+    "linearisation.json",
+    "mode-*.html",
+]);
 
 /// Frames of the page of a mode in one period.
 const FRAMES: usize = 40;
@@ -34,7 +47,7 @@ pub(crate) fn run(arguments: &Linearise, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
     let source =
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
-    let study = source.study(&Overrides::default(), arguments.resources)?;
+    let study = source.study(&Overrides::default(), arguments.resources, console)?;
     let options = LineariseOptions {
         coordinates: arguments.coordinates.clone(),
         follow: arguments.follow.clone(),
@@ -69,31 +82,27 @@ fn write(
         .iter()
         .map(|k| format!("mode-{}.html", k + 1))
         .collect();
-    let tables = MatrixTable::ALL.map(MatrixTable::file);
-    let own = tables
-        .into_iter()
-        .chain(["modes.csv", "linearisation.json"]);
-    let names: Vec<&str> = own.chain(pages.iter().map(String::as_str)).collect();
-    let place = directory(path, &names, force)?;
-    let put = |name: &str, content: &[u8]| place.write(name, content).map_err(|e| unwritten(&e));
+    let place = directory(path, FAMILY, force)?;
+    let mut files = Files::of(&place, FAMILY)?;
     let table = |e: TableError| Failure::stopped(e.to_string()).coded(e.code());
     for matrix in MatrixTable::ALL {
         if let Some(text) = matrix.write(document, Vec::new()).map_err(table)? {
-            put(matrix.file(), &text)?;
+            files.put(matrix.file(), &text)?;
         }
     }
     if document.modes.is_some() {
-        put(
+        files.put(
             "modes.csv",
             &modes_table(document, Vec::new()).map_err(table)?,
         )?;
     }
     let mut json = Vec::new();
     write_json(&mut json, document).map_err(|e| Failure::stopped(e.to_string()))?;
-    put("linearisation.json", &json)?;
+    files.put("linearisation.json", &json)?;
     for (name, &k) in pages.iter().zip(&shown) {
-        put(name, page(study, found, &modes[k], k + 1).as_bytes())?;
+        files.put(name, page(study, found, &modes[k], k + 1).as_bytes())?;
     }
+    let beside = files.finish()?;
     let left = (0..modes.len()).filter(|k| !shown.contains(k));
     let left = numbers(&left.map(|k| k + 1).collect::<Vec<_>>());
     let opens = match (pages.is_empty(), left.is_empty()) {
@@ -101,7 +110,7 @@ fn write(
         (_, true) => "; its pages open in any browser".to_owned(),
         _ => format!("; its pages open in any browser, modes {left} have none"),
     };
-    Ok(format!("written to {}{opens}\n", path.display()))
+    Ok(format!("written to {}{opens}\n{beside}", path.display()))
 }
 
 /// The modes that have pages: the first of those that are not zero, then of the others.

@@ -1,19 +1,17 @@
 //! `pfaff new`: creates a scene from a template.
 
-use std::fs::File;
-use std::io::{ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use pfaff::report::documents::{NewDocument, TemplateDocument, TemplatesDocument};
 
-use pfaff::model::codes::Code;
-
 use crate::args::New;
 use crate::console::Console;
-use crate::output::{Failure, Outcome, columns};
+use crate::interrupt::Interrupt;
+use crate::output::{Failure, Outcome, columns, replaces, write_file};
 use crate::template::Template;
 
 pub(crate) fn run(arguments: &New, console: &Console<'_>) -> Outcome {
+    Interrupt::ends_at_once()?;
     let Some(template) = arguments.template else {
         return list(arguments.json, console);
     };
@@ -37,7 +35,7 @@ pub(crate) fn run(arguments: &New, console: &Console<'_>) -> Outcome {
             console.print(&text)
         };
     }
-    write(&path, &text, arguments.force)?;
+    write_file(&path, text.as_bytes(), replaces(arguments.force))?;
     if arguments.json {
         console.document(&NewDocument {
             ok: true,
@@ -47,33 +45,6 @@ pub(crate) fn run(arguments: &New, console: &Console<'_>) -> Outcome {
     } else {
         console.print(&format!("written to {file}\nnext: pfaff analyze {file}\n"))
     }
-}
-
-/// Writes a file; replaces an existing one only with `force`.
-pub(crate) fn write(path: &Path, text: &str, force: bool) -> Outcome {
-    let refused = |e: std::io::Error| {
-        let name = path.display();
-        match e.kind() {
-            ErrorKind::AlreadyExists => Failure::input(format!(
-                "`{name}` is there already; --force replaces it, --out writes another file"
-            )),
-            ErrorKind::NotFound => Failure::input(format!(
-                "cannot write `{name}`: its directory does not exist"
-            )),
-            _ => Failure::input(format!("cannot write `{name}`: {e}")),
-        }
-        .coded(const { Code::new(3) })
-    };
-    let mut options = File::options();
-    options.write(true);
-    if force {
-        options.create(true).truncate(true)
-    } else {
-        options.create_new(true)
-    };
-    let mut file = options.open(path).map_err(refused)?;
-    let written = file.write_all(text.as_bytes());
-    written.map_err(|e| Failure::stopped(format!("cannot write `{}`: {e}", path.display())))
 }
 
 fn list(json: bool, console: &Console<'_>) -> Outcome {

@@ -1,13 +1,15 @@
 //! The form of answers and failures; the console decides where they are written.
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::path::Path;
 
 use pfaff::model::codes::Code;
 use pfaff::refusal;
 use pfaff::report::documents::RefusalDocument;
-use pfaff::report::{FileError, OutputDirectory};
+use pfaff::report::{Family, FileError, OutputDirectory, OutputFile, Replaces};
 use serde::Serialize;
+
+use crate::interrupt::{BY_REQUEST, Interrupt, NOTHING_WRITTEN};
 
 pub use pfaff::refusal::{Refusal, visible};
 
@@ -105,22 +107,99 @@ impl Failure {
     }
 }
 
-/// A directory for the results of one command: other processes are excluded from it. Files with
-/// these names that pfaff has not written are replaced only with `force`.
+/// A directory for the results of one command, which are of this family: other processes are
+/// excluded from it. Files of the family that pfaff has not written are replaced only with `force`.
 ///
 /// # Errors
 /// If it is not a place for results.
-pub fn directory(
-    path: &Path,
-    names: &[impl AsRef<str>],
-    force: bool,
-) -> Result<OutputDirectory, Failure> {
+pub fn directory(path: &Path, family: Family, force: bool) -> Result<OutputDirectory, Failure> {
     let opened = OutputDirectory::create(path).and_then(OutputDirectory::exclusive);
     let directory = opened.map_err(|e| unwritten(&e))?;
     if !force {
-        directory.check_ours(names).map_err(|e| unwritten(&e))?;
+        directory.check_ours(family).map_err(|e| unwritten(&e))?;
     }
     Ok(directory)
+}
+
+/// The files of an answer, which get their names together. A request to stop before leaves none.
+pub(crate) struct Files {
+    directory: OutputDirectory,
+    family: Family,
+    files: Vec<OutputFile>,
+    interrupt: Interrupt,
+}
+
+impl Files {
+    pub(crate) fn of(directory: &OutputDirectory, family: Family) -> Result<Self, Failure> {
+        let directory = directory.clone().whole();
+        let ended = directory.clone();
+        let interrupt = Interrupt::listen_with(move || {
+            ended.abandon();
+            NOTHING_WRITTEN.to_owned()
+        })?;
+        Ok(Self {
+            directory,
+            family,
+            files: Vec::new(),
+            interrupt,
+        })
+    }
+
+    /// Writes a file next to its place.
+    pub(crate) fn put(&mut self, name: impl AsRef<OsStr>, content: &[u8]) -> Outcome {
+        let mut file = self.directory.file(name).map_err(|e| unwritten(&e))?;
+        file.put(content).map_err(|e| unwritten(&e))?;
+        self.files.push(file);
+        Ok(())
+    }
+
+    /// Gives all files their names, and removes what an earlier answer has left. Returns what other
+    /// commands have left there, in words.
+    pub(crate) fn finish(self) -> Result<String, Failure> {
+        if self.interrupt.is_asked() {
+            return Err(Failure::stopped(NOTHING_WRITTEN.to_owned()).coded(BY_REQUEST));
+        }
+        let finished = self.directory.finish(self.family, self.files);
+        finished.map_err(|e| unwritten(&e))?;
+        Ok(beside(&self.directory, self.family))
+    }
+}
+
+/// What a scene may replace.
+pub(crate) fn replaces(force: bool) -> Replaces {
+    if force {
+        Replaces::Files
+    } else {
+        Replaces::Nothing
+    }
+}
+
+/// The family of a file that is the only one of its command.
+const SINGLE: Family = Family(&[]);
+
+/// Writes a single file next to its place, and renames it.
+pub(crate) fn write_file(path: &Path, content: &[u8], replaces: Replaces) -> Outcome {
+    let around = OutputDirectory::around(path, replaces).map_err(|e| unwritten(&e))?;
+    let mut files = Files::of(&around, SINGLE)?;
+    files.put(path.file_name().unwrap_or_default(), content)?;
+    files.finish().map(drop)
+}
+
+/// A sentence on what other commands have left in a directory; empty if they have left nothing.
+pub(crate) fn beside(directory: &OutputDirectory, family: Family) -> String {
+    if family == SINGLE {
+        return String::new();
+    }
+    let others = directory.others(family);
+    if others.is_empty() {
+        return String::new();
+    }
+    let named = others.iter().map(|name| format!("`{name}`"));
+    let named: Vec<String> = named.collect();
+    wrapped(
+        "",
+        &format!("also there, from other commands: {}", named.join(", ")),
+    )
 }
 
 /// A file that was not written: because of its place, or because writing failed.
@@ -139,6 +218,50 @@ pub fn unwritten(error: &FileError) -> Failure {
 /// If it cannot be written.
 pub fn json(document: &impl Serialize) -> Result<String, Failure> {
     Ok(refusal::json(document)?)
+}
+
+/// Why results are not whole.
+pub(crate) struct Shortfall {
+    pub(crate) code: Code,
+    pub(crate) error: String,
+}
+
+impl Shortfall {
+    /// A request to stop, and what there is.
+    pub(crate) fn interrupted(error: String) -> Self {
+        let code = BY_REQUEST;
+        Self { code, error }
+    }
+
+    /// The document of such results, with `code` and `error` before its own entries.
+    ///
+    /// # Errors
+    /// As [`json`].
+    pub(crate) fn json(&self, document: &impl Serialize) -> Result<String, Failure> {
+        #[derive(Serialize)]
+        struct Incomplete<'d, D> {
+            code: Code,
+            error: &'d str,
+            #[serde(flatten)]
+            document: &'d D,
+        }
+        json(&Incomplete {
+            code: self.code,
+            error: &self.error,
+            document,
+        })
+    }
+}
+
+/// A document as text, with the reason if it is not whole.
+pub(crate) fn json_or(
+    shortfall: Option<&Shortfall>,
+    document: &impl Serialize,
+) -> Result<String, Failure> {
+    match shortfall {
+        Some(shortfall) => shortfall.json(document),
+        None => json(document),
+    }
 }
 
 /// A number with its noun, as `1 body` or `7 bodies`.

@@ -21,7 +21,7 @@ pub(crate) fn run(arguments: &args::Plan, console: &Console<'_>) -> Outcome {
         t_end: arguments.t_end,
         ..arguments.way.overrides()?
     };
-    let study = source.study(&overrides, arguments.resources)?;
+    let study = source.study(&overrides, arguments.resources, console)?;
     let plan = study.plan().map_err(|e| source.failure(e))?;
     let memory = study
         .memory(source.text.len())

@@ -2,6 +2,7 @@
 //! refused before it starts, with the number of bytes.
 
 use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
@@ -10,6 +11,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::AssembledScene;
 use pfaff::memory::{Budget, Bytes};
 
+use crate::console::Console;
 use crate::input::Source;
 use crate::output::Failure;
 
@@ -18,16 +20,31 @@ pub(crate) struct Resources {
     /// Largest number of threads; default: the number of cores
     #[arg(long, value_name = "K")]
     pub(crate) threads: Option<NonZeroUsize>,
+    #[command(flatten)]
+    pub(crate) memory: Memory,
+}
+
+#[derive(Args, Clone, Copy, Default)]
+pub(crate) struct Memory {
     /// Largest memory, as 500MB or 4GiB: computations that need more are refused; default: the
     /// available memory of the machine
     #[arg(long, value_name = "SIZE")]
     pub(crate) max_memory: Option<Bytes>,
 }
 
+/// Starts the threads of all parallel computations; if the system does not allow them, the user is
+/// told once.
+pub(crate) fn start_threads(threads: Option<NonZeroUsize>, console: &Console<'_>) {
+    static TOLD: AtomicBool = AtomicBool::new(false);
+    if !pfaff::start_threads(threads) && !TOLD.swap(true, Ordering::Relaxed) {
+        console.note("the system does not start so many threads: one thread computes everything");
+    }
+}
+
 impl Resources {
     /// Sets the number of threads for all parallel computations.
-    pub(crate) fn apply(self) {
-        pfaff::start_threads(self.threads);
+    pub(crate) fn apply(self, console: &Console<'_>) {
+        start_threads(self.threads, console);
     }
 
     /// Reads the scene and builds its mechanism, if the memory suffices for the mechanism and its
@@ -40,6 +57,13 @@ impl Resources {
             .assembled(of, source.registry, source.tolerance)?)
     }
 
+    /// See [`Memory::allow`].
+    pub(crate) fn allow(self, bytes: usize, what: &str) -> Result<(), Failure> {
+        self.memory.allow(bytes, what)
+    }
+}
+
+impl Memory {
     /// Refuses a computation that needs more memory than is allowed.
     pub(crate) fn allow(self, bytes: usize, what: &str) -> Result<(), Failure> {
         Ok(self.budget().allow(bytes, what)?)

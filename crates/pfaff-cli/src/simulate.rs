@@ -7,7 +7,7 @@ use pfaff::model::words::{listed, rounded};
 use pfaff::report::documents::{
     ChoiceDocument, EndedDocument, MisfitDocument, RunReactionDocument, choice_file,
 };
-use pfaff::study::{files, files_in};
+use pfaff::study::FAMILY;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::report::{Origin, OutputDirectory, Provenance, RunDocument};
@@ -18,7 +18,7 @@ use crate::choice::choices;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::{BY_REQUEST, Interrupt};
-use crate::output::{Failure, Outcome, count, directory, json, wrapped};
+use crate::output::{Failure, Outcome, beside, count, directory, json, wrapped};
 use crate::work_precision::provenance;
 
 /// Largest error of the energy balance without a warning, as a fraction of the largest kinetic
@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     let source =
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     let overrides = overrides(arguments)?;
-    let mut study = source.study(&overrides, arguments.resources)?;
+    let mut study = source.study(&overrides, arguments.resources, console)?;
     let rows = study.prepared.mechanism.layout().rows();
     let reaction = |name: &str| study.reaction(name);
     study.choices = choices(&arguments.choose, &source, (rows, &reaction))?;
@@ -45,9 +45,8 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     let Some(options) = &study.options else {
         return Err(source.failure(StudyError::NoEnd));
     };
-    let own = files(study.choices.len());
-    let directory = directory(&arguments.place.out, &own, arguments.place.force)?;
-    let ended = last_act(&directory, study.scene.name(), study.choices.len());
+    let directory = directory(&arguments.place.out, FAMILY, arguments.place.force)?;
+    let ended = last_act(&directory, study.scene.name());
     let interrupt = Interrupt::listen_with(ended)?;
     // It hides itself if standard error is not a terminal.
     let bar = ProgressBar::new(TICKS);
@@ -74,6 +73,7 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
             &arguments.place.out.display().to_string(),
             study.scene.output.report,
         ));
+        text.push_str(&beside(&directory, FAMILY));
         text
     };
     if document.partial {
@@ -84,12 +84,7 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
 }
 
 /// The last act of a run that has to be ended: its tables and a summary.
-fn last_act(
-    directory: &OutputDirectory,
-    scene: &str,
-    choices: usize,
-) -> impl Fn() -> String + Send + Sync + use<> {
-    let all = files_in(directory, choices);
+fn last_act(directory: &OutputDirectory, scene: &str) -> impl Fn() -> String + Send + Sync + use<> {
     let directory = directory.clone();
     let (error, kept) = ("interrupted", "kept: whole rows of the tables");
     let document = json(&EndedDocument {
@@ -101,7 +96,7 @@ fn last_act(
     let summary = document.unwrap_or_default();
     move || {
         let place = directory.path().display().to_string();
-        if directory.abandon_as("summary.json", summary.as_bytes(), &all) {
+        if directory.abandon_as("summary.json", summary.as_bytes(), FAMILY) {
             format!("{error}; {kept} in `{place}`; summary.json says that they are partial")
         } else {
             format!("{error}; nothing was written into `{place}`")

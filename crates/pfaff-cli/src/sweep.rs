@@ -4,8 +4,9 @@
 use std::num::NonZeroUsize;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use pfaff::report::sweep::{FILES, Records, Runs};
-use pfaff::report::{FileError, SweepDocument, SweepStatus, is_ours};
+use pfaff::model::codes::Code;
+use pfaff::report::sweep::{FAMILY, Records, Runs};
+use pfaff::report::{OutputDirectory, SweepDocument, SweepStatus};
 use pfaff::sweep::{
     Axis, Merged, Shard, Sweep, SweepError, SweepProgress, SweepSettings, Tables, end_attempts,
     merge,
@@ -15,12 +16,13 @@ use crate::args;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, count, json, unwritten, wrapped};
+use crate::output::{Failure, Outcome, Shortfall, beside, count, json_or, unwritten, wrapped};
+use crate::resources::start_threads;
 use crate::simulate::TRUSTED_BALANCE;
 
 pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
-    pfaff::start_threads(arguments.threads);
+    start_threads(arguments.threads, console);
     check_place(arguments)?;
     let (document, ending) = match &arguments.scene {
         Some(scene) => make(
@@ -38,26 +40,55 @@ pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
             (document, ending)
         }
     };
+    let shortfall = shortfall(&document, ending);
     let text = if arguments.json {
-        json(&document)?
+        json_or(shortfall.as_ref(), &document)?
     } else {
         let out = arguments.place.out.display().to_string();
-        describe(&document, arguments.shard, ending, &out)
+        let place = OutputDirectory::create(&arguments.place.out);
+        let others = place.map_or_else(|_| String::new(), |place| beside(&place, FAMILY));
+        describe(&document, arguments.shard, ending, &out) + &others
     };
+    match shortfall {
+        None => console.print(&text),
+        Some(_) => Err(console.incomplete(&text)),
+    }
+}
+
+/// Why a sweep is not done, if it is not.
+fn shortfall(d: &SweepDocument, ending: Ending) -> Option<Shortfall> {
+    let failed = |error| {
+        let code = const { Code::new(514) };
+        Some(Shortfall { code, error })
+    };
+    let made = format!("{} of {} runs have been made", d.finished, d.runs);
     match ending {
-        Ending::Whole(_) if document.done == document.finished => console.print(&text),
-        _ => Err(console.incomplete(&text)),
+        Ending::Interrupted => Some(Shortfall::interrupted(format!(
+            "interrupted; {made}: the same command resumes the sweep"
+        ))),
+        Ending::Missing { .. } => failed(made),
+        Ending::Whole(_) if d.done == d.finished => None,
+        Ending::Whole(_) => {
+            let first = d.failures.first();
+            let first = first.map_or_else(String::new, |first| {
+                format!("; run {} {}: {}", first.run, first.status, first.error)
+            });
+            failed(format!(
+                "{} of {} runs are not done{first}",
+                d.finished - d.done,
+                d.finished
+            ))
+        }
     }
 }
 
 /// Refuses a directory in which tables of somebody else would be replaced.
 fn check_place(arguments: &args::Sweep) -> Outcome {
-    let paths = FILES.map(|name| arguments.place.out.join(name));
-    let foreign: Vec<_> = paths.into_iter().filter(|path| !is_ours(path)).collect();
-    if arguments.place.force || foreign.is_empty() {
+    let place = OutputDirectory::create(&arguments.place.out).map_err(|e| unwritten(&e))?;
+    if arguments.place.force {
         return Ok(());
     }
-    Err(unwritten(&FileError::Foreign { paths: foreign }))
+    place.check_ours(FAMILY).map_err(|e| unwritten(&e))
 }
 
 /// How a sweep ended.

@@ -8,18 +8,24 @@ use pfaff::model::words::rounded;
 use pfaff::report::documents::{
     QuantityRangeDocument, ReactionRangeDocument, ToleranceDocument, distance,
 };
-use pfaff::report::{OutputDirectory, TableError, tolerance_page, tolerance_table, write_json};
+use pfaff::report::{
+    Family, OutputDirectory, TableError, tolerance_page, tolerance_table, write_json,
+};
 use pfaff::tolerance::{ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, Varied};
 
 use crate::args::Tolerance;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, columns, directory, json, unwritten, wrapped};
+use crate::output::{Failure, Files, Outcome, Shortfall, columns, directory, json_or, wrapped};
 use crate::work_precision::provenance;
 
 /// The files of a run.
-const FILES: [&str; 3] = ["tolerance.csv", "tolerance.json", "tolerance.html"];
+const FAMILY: Family = Family(&[TABLE, DOCUMENT, PAGE]);
+
+const TABLE: &str = "tolerance.csv";
+const DOCUMENT: &str = "tolerance.json";
+const PAGE: &str = "tolerance.html";
 
 /// Reactions that are also told in a sentence.
 const TOLD: usize = 3;
@@ -31,7 +37,7 @@ pub(crate) fn run(arguments: &Tolerance, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
     let source =
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
-    arguments.resources.apply();
+    arguments.resources.apply(console);
     let assembled = arguments.resources.assembled(&source)?;
     let failed = |e: ToleranceError| failure(&source, e);
     let vary = match &arguments.vary[..] {
@@ -47,7 +53,7 @@ pub(crate) fn run(arguments: &Tolerance, console: &Console<'_>) -> Outcome {
     let memory = study.memory(arguments.runs);
     arguments.resources.allow(memory, "keeping these samples")?;
     let place = match &arguments.out {
-        Some(path) => Some(directory(path, &FILES, arguments.force)?),
+        Some(path) => Some(directory(path, FAMILY, arguments.force)?),
         None => None,
     };
     let options = ToleranceOptions {
@@ -61,15 +67,18 @@ pub(crate) fn run(arguments: &Tolerance, console: &Console<'_>) -> Outcome {
         _ => String::new(),
     };
     let document = &found.document;
+    let shortfall = document.partial.then(|| {
+        let (made, all) = (document.samples, arguments.runs);
+        Shortfall::interrupted(format!("interrupted after {made} of {all} samples"))
+    });
     let text = if arguments.json {
-        json(document)?
+        json_or(shortfall.as_ref(), document)?
     } else {
         describe(document) + &written
     };
-    if document.partial {
-        Err(console.incomplete(&text))
-    } else {
-        console.print(&text)
+    match shortfall {
+        None => console.print(&text),
+        Some(_) => Err(console.incomplete(&text)),
     }
 }
 
@@ -106,20 +115,20 @@ fn write(
     study: &ToleranceStudy<'_>,
     found: &ToleranceResult,
 ) -> Result<String, Failure> {
-    let [csv, document, page] = FILES;
-    let put = |name: &str, content: &[u8]| place.write(name, content).map_err(|e| unwritten(&e));
+    let mut files = Files::of(place, FAMILY)?;
     let table = |e: TableError| Failure::stopped(e.to_string()).coded(e.code());
     let rows = found.samples.iter().map(|sample| study.row(sample));
     let text = tolerance_table(&study.columns(), rows, Vec::new()).map_err(table)?;
-    put(csv, &text)?;
+    files.put(TABLE, &text)?;
     let mut json = Vec::new();
     write_json(&mut json, &found.document).map_err(|e| Failure::stopped(e.to_string()))?;
-    put(document, &json)?;
+    files.put(DOCUMENT, &json)?;
     let clouds = study.clouds(&found.samples);
     let text = tolerance_page(&found.document, &clouds, &provenance());
-    put(page, text.as_bytes())?;
+    files.put(PAGE, text.as_bytes())?;
+    let beside = files.finish()?;
     Ok(format!(
-        "\nwritten to {}: {csv}, {document}, {page}; the page opens in any browser\n",
+        "\nwritten to {}: {TABLE}, {DOCUMENT}, {PAGE}; the page opens in any browser\n{beside}",
         path.display()
     ))
 }

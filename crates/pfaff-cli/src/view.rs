@@ -8,13 +8,13 @@ use std::process::{Command, Stdio};
 use pfaff::model::System;
 use pfaff::report::documents::ViewDocument;
 use pfaff::report::figures::{Labels, Marking, labelled_mechanism, png};
-use pfaff::report::{FileError, Frame, Recording, RunPage, Shows, is_ours, replace_file, run_page};
+use pfaff::report::{Frame, OutputDirectory, Recording, Replaces, RunPage, Shows, run_page};
 
 use crate::args::View;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, count, unwritten};
+use crate::output::{Failure, Outcome, count, unwritten, write_file};
 use crate::picture::{can_paint, missing, unpainted};
 use crate::simulate::origin;
 use crate::start::Start;
@@ -27,10 +27,14 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     if form == Form::Png {
         can_paint(arguments.scale)?;
     }
-    if !arguments.force && !is_ours(&path) {
-        return Err(unwritten(&FileError::Foreign { paths: vec![path] }));
-    }
-    arguments.resources.apply();
+    let replaces = if arguments.force {
+        Replaces::Files
+    } else {
+        Replaces::Ours
+    };
+    // Before anything is computed, too.
+    OutputDirectory::around(&path, replaces).map_err(|e| unwritten(&e))?;
+    arguments.resources.apply(console);
     let start = Start::of(&source, arguments.resources)?;
     let (mut pixels, mut boxes) = (None, String::new());
     let content = match form {
@@ -42,7 +46,7 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
             painted.bytes
         }
     };
-    replace_file(&path, &content).map_err(|e| unwritten(&e))?;
+    write_file(&path, &content, replaces)?;
     let open = start
         .document
         .reactions

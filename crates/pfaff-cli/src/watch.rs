@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
     // A file that does not exist at the beginning has a wrong name.
     let mut seen = Stamp::of(path).map_err(|e| unreadable(path, &e))?;
     Interrupt::ends_well()?;
-    arguments.resources.apply();
+    arguments.resources.apply(console);
     loop {
         // Its colours are ours.
         let verdict = verdict(arguments, console);

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::StudyError;
 use pfaff::report::{
-    OutputDirectory, OutputFile, Provenance, TableError, WorkPrecisionDocument, WorkPrecisionRow,
-    WorkPrecisionScene, WorkPrecisionTable, figures, work_precision_page,
+    Family, OutputDirectory, OutputFile, Provenance, TableError, WorkPrecisionDocument,
+    WorkPrecisionRow, WorkPrecisionScene, WorkPrecisionTable, figures, work_precision_page,
 };
 use pfaff::work_precision::{Plan, Rival, Subject, overview, provenance};
 
@@ -15,13 +15,13 @@ use crate::args::{Settings, WorkPrecision};
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, directory, json, unwritten, wrapped};
+use crate::output::{Failure, Outcome, Shortfall, beside, directory, json_or, unwritten, wrapped};
 use crate::picture::{can_paint, unpainted};
-use crate::resources::Resources;
+use crate::resources::{Resources, start_threads};
 
 pub(crate) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
-    pfaff::start_threads(None);
+    start_threads(None, console);
     // All scenes are read before the first is run.
     let scenes = arguments.scenes.iter();
     let read = |path: &PathBuf| read(path, &arguments.settings, console);
@@ -59,12 +59,16 @@ pub fn subject(path: &Path, console: &Console<'_>) -> Result<Subject, Failure> {
 /// The scene of a file, with other numbers in it.
 fn read(path: &Path, settings: &Settings, console: &Console<'_>) -> Result<Subject, Failure> {
     let source = Source::read(path, settings, console)?;
-    let study = source.study(&pfaff::Overrides::default(), Resources::default())?;
+    let study = source.study(&pfaff::Overrides::default(), Resources::default(), console)?;
     Subject::of_study(study).map_err(|e| source.failure(e))
 }
 
-/// The files of a comparison, and the one that is written if it is requested.
-const FILES: [&str; 3] = ["work_precision.csv", "work_precision.svg", "report.html"];
+/// The files of a comparison; the last one is written if it is requested.
+const FAMILY: Family = Family(&[TABLE, FIGURE, PAGE, PNG]);
+
+const TABLE: &str = "work_precision.csv";
+const FIGURE: &str = "work_precision.svg";
+const PAGE: &str = "report.html";
 const PNG: &str = "work_precision.png";
 
 /// Scenes whose runs are compared, and the directory of the results.
@@ -91,14 +95,11 @@ impl Request<'_> {
     /// # Errors
     /// If a scene cannot be run or a file cannot be written.
     pub fn run(&self, console: &Console<'_>) -> Outcome {
-        let mut names = FILES.to_vec();
         if self.png {
             can_paint(None)?;
-            names.push(PNG);
         }
-        let directory = directory(self.out, &names, self.force)?;
-        let [csv, svg, page_name] = FILES;
-        let file = directory.file(csv).map_err(|e| unwritten(&e))?;
+        let directory = directory(self.out, FAMILY, self.force)?;
+        let file = directory.file(TABLE).map_err(|e| unwritten(&e))?;
         let mut table = WorkPrecisionTable::new(file).map_err(|e| unfinished(&e))?;
         let mut rows = 0;
         let compared = self.compare(&directory, (&mut table, &mut rows));
@@ -114,27 +115,32 @@ impl Request<'_> {
         let document = compared?;
         let figure = figures::work_precision(&document.scenes);
         let page = work_precision_page(&document, &figure);
-        for (name, text) in [(svg, &figure), (page_name, &page)] {
-            directory
-                .write(name, text.as_bytes())
-                .map_err(|e| unwritten(&e))?;
-        }
+        let mut pages = vec![
+            (FIGURE, figure.clone().into_bytes()),
+            (PAGE, page.into_bytes()),
+        ];
         if self.png {
             let painted = figures::png(&figure, None).map_err(|e| unpainted(&e))?;
-            directory.write(PNG, &painted.bytes)
-        } else {
-            directory.remove_stale(&[PNG]).map(|_| PathBuf::new())
+            pages.push((PNG, painted.bytes));
         }
-        .map_err(|e| unwritten(&e))?;
+        let mut kept = vec![TABLE];
+        for (name, content) in &pages {
+            directory.write(name, content).map_err(|e| unwritten(&e))?;
+            kept.push(name);
+        }
+        directory.keep(FAMILY, &kept).map_err(|e| unwritten(&e))?;
+        let shortfall = document.partial.then(|| {
+            let (made, all) = (document.scenes.len(), self.subjects.len());
+            Shortfall::interrupted(format!("interrupted in scene {made} of {all}"))
+        });
         let text = if self.json {
-            json(&document)?
+            json_or(shortfall.as_ref(), &document)?
         } else {
-            describe(&document, &self.out.display().to_string())
+            describe(&document, &self.out.display().to_string()) + &beside(&directory, FAMILY)
         };
-        if document.partial {
-            Err(console.incomplete(&text))
-        } else {
-            console.print(&text)
+        match shortfall {
+            None => console.print(&text),
+            Some(_) => Err(console.incomplete(&text)),
         }
     }
 

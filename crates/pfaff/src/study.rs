@@ -18,11 +18,12 @@ use model::{
     System,
 };
 use report::documents::{
-    DataDocument, Gap, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument, choice_file,
+    DataDocument, Gap, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument,
 };
 use report::{
-    AnalysisDocument, Origin, OutputDirectory, Peak, PeakRecorder, Quantity, ReactionColumn, Run,
-    RunDocument, Selection, TableError, TrajectoryTable, columns_of_reactions, write_json,
+    AnalysisDocument, Family, Origin, OutputDirectory, Peak, PeakRecorder, Quantity,
+    ReactionColumn, Run, RunDocument, Selection, TableError, TrajectoryTable, columns_of_reactions,
+    write_json,
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{
@@ -37,7 +38,7 @@ use crate::report_builder::{OfRun, ReportBuilder};
 use crate::rows::{Calling, Ended, RowFault, RowSink, run_into};
 use crate::spread::Path;
 use crate::tables_of_run::{
-    KEPT_ROWS, ReactionFiles, TableRows, TrajectoryFile, group_numbers, note_gap, numbers_of,
+    ReactionFiles, TableRows, TrajectoryFile, group_numbers, note_gap, numbers_of,
 };
 use crate::within::missed;
 
@@ -897,9 +898,7 @@ impl Study {
         })?;
         directory.write("summary.json", &text)?;
         // The summary names its files, so that these mean nothing any more.
-        let mut stale = files_in(directory, 0);
-        stale.retain(|name| !files.contains(name));
-        directory.remove_stale(&stale)?;
+        directory.keep(FAMILY, &files)?;
         if let Some(report_builder) = report_builder {
             let figure = comparison_beside(directory);
             let of_run = OfRun {
@@ -998,26 +997,15 @@ impl Begun<'_> {
     }
 }
 
-/// Files that a run into this directory writes with so many choices if its scene wants all of them,
-/// and those that earlier runs have left.
-#[must_use]
-pub fn files_in(directory: &OutputDirectory, choices: usize) -> Vec<String> {
-    let mut names = files_of(&Output::default(), &choice_files(choices));
-    names.extend(directory.numbered("choice", "csv"));
-    names.push(KEPT_ROWS.to_owned());
-    names
-}
-
-/// Files that a run with so many choices writes if its scene wants all of them.
-#[must_use]
-pub fn files(choices: usize) -> Vec<String> {
-    files_of(&Output::default(), &choice_files(choices))
-}
-
-/// The tables of so many choices; without any, that of the dropped rows.
-fn choice_files(choices: usize) -> Vec<String> {
-    (0..choices.max(1)).map(choice_file).collect()
-}
+/// The files of a run.
+pub const FAMILY: Family = Family(&[
+    "trajectory.csv",
+    "reactions.csv",
+    "choice.csv",
+    "choice_*.csv",
+    "summary.json",
+    "report.html",
+]);
 
 /// The files of a run with this output and these tables of choices.
 fn files_of(output: &Output, choices: &[String]) -> Vec<String> {

@@ -112,7 +112,7 @@ const CHOICE: &str = "choice.csv";
 const REACTIONS: &str = "reactions.csv";
 
 /// The numbers on the rows that the run keeps, if other choices are requested.
-pub(crate) const KEPT_ROWS: &str = "choice_0.csv";
+const KEPT_ROWS: &str = "choice_0.csv";
 
 impl<'m> ReactionFiles<'m> {
     /// Begins the files. `is_plain` states whether no row is dropped.
@@ -132,7 +132,7 @@ impl<'m> ReactionFiles<'m> {
             (false, _) => table(REACTIONS, directory.scratch(KEPT_ROWS)?)?,
         };
         let chosen = (0..choices).map(|k| {
-            let file = directory.file(&choice_file(k))?;
+            let file = directory.file(choice_file(k))?;
             Ok::<_, StudyError>((table(CHOICE, file)?, None))
         });
         let cuts = &mechanism.layout().break_times;
@@ -251,10 +251,9 @@ impl RowSink for ReactionFiles<'_> {
         let mut out = self.directory.file(REACTIONS)?;
         let has_choice = write_determined(all, &mut out, &columns, stretches)?;
         finished(out, ending)?;
+        // Without one, it is not among the files that are kept.
         if has_choice {
             self.choice_files.push(CHOICE.to_owned());
-        } else {
-            self.directory.remove_stale(&[CHOICE])?;
         }
         Ok(())
     }

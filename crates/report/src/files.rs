@@ -4,15 +4,21 @@
 //! none. If writing fails, the file and the others that are not finished are cut off after the last
 //! complete line and keep the name `.part`; an older file with the final name stays unchanged.
 //!
+//! An answer of several files is one step as far as the system allows it: all files are written
+//! next to their places, then all are renamed, then the files are removed that an earlier answer of
+//! the same [`Family`] has left and this one does not have.
+//!
 //! Nothing is written through a symbolic link: a link at the place of a file is replaced by the
-//! file, and what it refers to stays as it is.
+//! file, and what it refers to stays as it is. Nothing is removed through one, either.
 
+mod family;
 mod lock;
 mod made;
 mod ours;
 pub(crate) mod process;
 
 use model::codes::Code;
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::mem;
@@ -22,7 +28,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError, Weak};
 use std::thread::sleep;
 use std::time::Duration;
 
+pub use family::Family;
 use made::Made;
+use ours::is_marked;
 pub use ours::{PROVENANCE, is_ours};
 
 /// Reason why a file cannot be written.
@@ -53,6 +61,18 @@ pub enum FileError {
         /// The directory.
         directory: PathBuf,
     },
+    /// A file would be replaced.
+    #[error("`{}` is there already; --force replaces it, --out writes another file", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// What is at the place of a file is none: a directory, a device, a pipe, a link.
+    #[error("`{}` is a directory, a device or a link, not a file; take another place", path.display())]
+    NoFile {
+        /// The place.
+        path: PathBuf,
+    },
     /// Files that pfaff has not written would be replaced.
     #[error(
         "`{}` has been written by something else than pfaff; --force replaces it, or take another place",
@@ -72,7 +92,7 @@ impl FileError {
             Self::Foreign { .. } => const { Code::new(4) },
             Self::Busy { .. } => const { Code::new(5) },
             _ if self.is_place() => const { Code::new(3) },
-            Self::Refused { .. } | Self::Name { .. } => const { Code::new(6) },
+            _ => const { Code::new(6) },
         }
     }
 }
@@ -96,7 +116,10 @@ impl FileError {
                 let full = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded];
                 action.starts_with(MAKE) && !full.contains(&source.kind())
             }
-            Self::Name { .. } | Self::Foreign { .. } => true,
+            Self::Name { .. }
+            | Self::Exists { .. }
+            | Self::NoFile { .. }
+            | Self::Foreign { .. } => true,
             Self::Busy { .. } => false,
         }
     }
@@ -118,6 +141,7 @@ fn paths_of(paths: &[PathBuf]) -> String {
 pub struct OutputDirectory {
     path: PathBuf,
     parts: Parts,
+    unfinished: Unfinished,
     written: Arc<Mutex<Written>>,
     /// Excludes other processes until the last clone is dropped.
     _lock: Option<Arc<File>>,
@@ -125,6 +149,17 @@ pub struct OutputDirectory {
     made: Arc<Made>,
     /// Whether a file could not be written: then files that are not finished are kept.
     has_failed: Arc<AtomicBool>,
+}
+
+/// What a single file may replace.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Replaces {
+    /// No file.
+    Nothing,
+    /// Files that pfaff has written.
+    Ours,
+    /// Every file.
+    Files,
 }
 
 /// Names of files that are not finished.
@@ -136,20 +171,33 @@ enum Parts {
     Own,
 }
 
+/// What becomes of files that are not finished after a failure, or when the process is ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Unfinished {
+    /// Their whole lines are kept.
+    Kept,
+    Removed,
+}
+
 /// What this process has written into a directory.
 #[derive(Debug, Default)]
 struct Written {
     /// Files that were begun, with their names.
-    begun: Vec<(String, Weak<Mutex<Content>>)>,
+    begun: Vec<(OsString, Weak<Mutex<Content>>)>,
     /// Names of files that were written at once.
-    finished: Vec<String>,
+    finished: Vec<OsString>,
 }
 
 impl Written {
-    /// Whether this process writes a file with this name, or has written it.
-    fn has(&self, name: &str) -> bool {
+    /// The names of files that this process writes or has written.
+    fn names(&self) -> Vec<&str> {
         let begun = self.begun.iter().map(|(name, _)| name);
-        self.finished.iter().chain(begun).any(|own| own == name)
+        let names = self.finished.iter().chain(begun);
+        names.filter_map(|name| name.to_str()).collect()
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.names().contains(&name)
     }
 }
 
@@ -172,6 +220,7 @@ impl OutputDirectory {
             made: Arc::new(made),
             path,
             parts: Parts::Plain,
+            unfinished: Unfinished::Kept,
             written: Arc::default(),
             _lock: None,
             has_failed: Arc::default(),
@@ -190,6 +239,45 @@ impl OutputDirectory {
             _lock: lock.map(Arc::new),
             ..self
         })
+    }
+
+    /// The directory of a single file, which has to exist, for writing this file next to its place.
+    ///
+    /// # Errors
+    /// - [`FileError::Exists`], [`FileError::Foreign`]: it is not to be replaced.
+    /// - [`FileError::NoFile`]: there is a directory, a device, a pipe or a link. A link is neither
+    ///   replaced nor followed: whoever made it knows which of both files is meant.
+    /// - [`FileError::Refused`]: there is no such directory.
+    pub fn around(file: &Path, replaces: Replaces) -> Result<Self, FileError> {
+        let path = file.to_owned();
+        let is_there = fs::symlink_metadata(file).is_ok();
+        match replaces {
+            _ if is_there && !is_plain(file) => return Err(FileError::NoFile { path }),
+            Replaces::Nothing if is_there => return Err(FileError::Exists { path }),
+            Replaces::Ours if !is_ours(file) => {
+                return Err(FileError::Foreign { paths: vec![path] });
+            }
+            _ => {}
+        }
+        let parent = file.parent().unwrap_or(Path::new(""));
+        let parent = if parent.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            parent
+        };
+        if !parent.is_dir() {
+            let source = io::Error::new(ErrorKind::NotFound, "its directory does not exist");
+            return Err(FileError::refused(MAKE, file)(source));
+        }
+        Ok(Self::create(parent)?.with_own_parts().whole())
+    }
+
+    /// For files that mean something only when they are whole: those that are not finished are
+    /// removed, also after a failure.
+    #[must_use]
+    pub fn whole(mut self) -> Self {
+        self.unfinished = Unfinished::Removed;
+        self
     }
 
     /// Lets several processes write the same files at the same time: files that are not finished
@@ -219,12 +307,13 @@ impl OutputDirectory {
         &self.path
     }
 
-    /// Returns an error if a file with one of these names was not written by pfaff.
+    /// Returns an error if a file with a name of this family was not written by pfaff.
     ///
     /// # Errors
     /// - [`FileError::Foreign`]
-    pub fn check_ours(&self, names: &[impl AsRef<str>]) -> Result<(), FileError> {
-        let paths = names.iter().map(|name| self.path.join(name.as_ref()));
+    pub fn check_ours(&self, family: Family) -> Result<(), FileError> {
+        let names = self.names().into_iter().filter(|name| family.has(name));
+        let paths = names.map(|name| self.path.join(name));
         let paths: Vec<PathBuf> = paths.filter(|path| !is_ours(path)).collect();
         if paths.is_empty() {
             Ok(())
@@ -233,12 +322,30 @@ impl OutputDirectory {
         }
     }
 
+    /// The names of everything in the directory, in their order.
+    fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
+        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+        let mut names: Vec<String> = names.collect();
+        names.sort_unstable();
+        names
+    }
+
+    /// The names of files that pfaff has written there and that are not of this family.
+    #[must_use]
+    pub fn others(&self, family: Family) -> Vec<String> {
+        let mut names = self.names();
+        names.retain(|name| !family.has(name) && is_marked(&self.path.join(name)));
+        names
+    }
+
     /// Begins a file; an older file with the same name is kept until this one is finished.
     ///
     /// # Errors
     /// - [`FileError::Name`]: the name is empty or has a directory in it.
     /// - [`FileError::Refused`]: the file cannot be created.
-    pub fn file(&self, name: &str) -> Result<OutputFile, FileError> {
+    pub fn file(&self, name: impl AsRef<OsStr>) -> Result<OutputFile, FileError> {
+        let name = name.as_ref();
         let mut written = self.written();
         let file = self.begin(name)?;
         let content = Arc::downgrade(&file.content);
@@ -252,7 +359,7 @@ impl OutputDirectory {
     /// # Errors
     /// As [`OutputDirectory::file`].
     pub fn scratch(&self, name: &str) -> Result<OutputFile, FileError> {
-        self.begin(name)
+        self.begin(name.as_ref())
     }
 
     /// Writes a whole file.
@@ -262,54 +369,62 @@ impl OutputDirectory {
     pub fn write(&self, name: &str, content: &[u8]) -> Result<PathBuf, FileError> {
         let mut written = self.written();
         let path = self.put(name, content)?;
-        written.finished.push(name.to_owned());
+        written.finished.push(name.into());
         Ok(path)
     }
 
     fn put(&self, name: &str, content: &[u8]) -> Result<PathBuf, FileError> {
-        let file = self.begin(name)?;
-        let put = file.content().with(|buffer| buffer.write_all(content));
-        put.map_err(FileError::refused("write", &file.part()))?;
+        let mut file = self.begin(name.as_ref())?;
+        file.put(content)?;
         file.finish()
     }
 
-    /// The files there, finished or not, that are called `STEM_N.ENDING` with a number N.
-    #[must_use]
-    pub fn numbered(&self, stem: &str, ending: &str) -> Vec<String> {
-        let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
-        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
-        let names = names.map(|name| name.strip_suffix(".part").unwrap_or(&name).to_owned());
-        let is_numbered = |name: &String| {
-            let number = name
-                .strip_prefix(stem)
-                .and_then(|rest| rest.strip_prefix('_'));
-            let number = number.and_then(|rest| rest.strip_suffix(ending)?.strip_suffix('.'));
-            number.is_some_and(|number| number.parse::<u64>().is_ok())
-        };
-        let mut names: Vec<String> = names.filter(is_numbered).collect();
-        names.sort_unstable();
-        names.dedup();
-        names
+    /// Finishes these files, and removes those of this family that an earlier answer has left: see
+    /// [`Self::keep`]. All are written before the first one is renamed, so that a full disk leaves
+    /// the earlier answer.
+    ///
+    /// # Errors
+    /// As [`OutputFile::finish`] and [`Self::keep`].
+    pub fn finish(&self, family: Family, files: Vec<OutputFile>) -> Result<Vec<String>, FileError> {
+        for file in &files {
+            file.flushed()?;
+        }
+        let mut names = Vec::with_capacity(files.len());
+        for file in files {
+            let path = file.finish()?;
+            let name = path.file_name().and_then(OsStr::to_str);
+            names.extend(name.map(str::to_owned));
+        }
+        self.keep(family, &names)
     }
 
-    /// Removes files that an earlier run has left and this one does not write, also those with the
-    /// name `.part`: they would be taken for its results. Returns their names.
+    /// Removes the files of this family that are not among `files`, also those with the name
+    /// `.part`: they are of an earlier answer and would be taken for a part of this one. A file
+    /// that pfaff has not written stays. Returns the names of what was removed.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: one of them cannot be removed.
-    pub fn remove_stale(&self, names: &[impl AsRef<str>]) -> Result<Vec<String>, FileError> {
+    pub fn keep(
+        &self,
+        family: Family,
+        files: &[impl AsRef<str>],
+    ) -> Result<Vec<String>, FileError> {
         let mut removed = Vec::new();
-        for name in names.iter().map(AsRef::as_ref) {
-            for ending in ["", ".part"] {
-                let path = self.path.join(format!("{name}{ending}"));
-                if ending.is_empty() && !is_ours(&path) {
-                    continue;
+        for name in self.names() {
+            let (whole, is_part) = match name.strip_suffix(".part") {
+                Some(whole) => (whole, true),
+                None => (name.as_str(), false),
+            };
+            let path = self.path.join(&name);
+            let is_kept = !is_part && files.iter().any(|file| file.as_ref() == whole);
+            if is_kept || !family.has(whole) || !(is_part && is_plain(&path) || is_marked(&path)) {
+                continue;
+            }
+            match fs::remove_file(&path) {
+                Err(e) if e.kind() != ErrorKind::NotFound => {
+                    return Err(FileError::refused("remove", &path)(e));
                 }
-                match fs::remove_file(&path) {
-                    Ok(()) => removed.push(name.to_owned()),
-                    Err(e) if e.kind() == ErrorKind::NotFound => {}
-                    Err(e) => return Err(FileError::refused("remove", &path)(e)),
-                }
+                _ => removed.push(name),
             }
         }
         Ok(removed)
@@ -323,16 +438,16 @@ impl OutputDirectory {
     }
 
     /// Like [`Self::abandon`]. In addition, `name` is written with this content unless it has been
-    /// written already, and those of `all` files that were not written are removed.
-    pub fn abandon_as(&self, name: &str, content: &[u8], all: &[impl AsRef<str>]) -> bool {
+    /// written already, and files of the family that were not written are removed.
+    pub fn abandon_as(&self, name: &str, content: &[u8], family: Family) -> bool {
         self.abandon_with(|written| {
             // The process ends, whether or not this can be done.
             if !written.has(name) {
                 let _ = self.put(name, content);
             }
-            let stale = all.iter().map(AsRef::as_ref);
-            let stale = stale.filter(|file| *file != name && !written.has(file));
-            let _ = self.remove_stale(&stale.collect::<Vec<&str>>());
+            let mut kept = written.names();
+            kept.push(name);
+            let _ = self.keep(family, &kept);
         })
     }
 
@@ -351,6 +466,7 @@ impl OutputDirectory {
             }
         }
         last(&written);
+        self.made.remove_empty();
         // Whoever writes waits here until the process ends.
         mem::forget(written);
         true
@@ -361,7 +477,7 @@ impl OutputDirectory {
     }
 
     /// Makes the file with the name `.part`.
-    fn begin(&self, name: &str) -> Result<OutputFile, FileError> {
+    fn begin(&self, name: &OsStr) -> Result<OutputFile, FileError> {
         let mut parts = Path::new(name).components();
         let plain = matches!(
             (parts.next(), parts.next()),
@@ -369,13 +485,17 @@ impl OutputDirectory {
         );
         if !plain {
             return Err(FileError::Name {
-                name: name.to_owned(),
+                name: name.to_string_lossy().into_owned(),
                 directory: self.path.clone(),
             });
         }
         let path = self.path.join(name);
         let part = match self.parts {
-            Parts::Plain => self.path.join(format!("{name}.part")),
+            Parts::Plain => {
+                let mut part = path.clone().into_os_string();
+                part.push(".part");
+                part.into()
+            }
             Parts::Own => own_part(&path),
         };
         let file = new_file(&part).map_err(FileError::refused(MAKE, &part))?;
@@ -384,6 +504,7 @@ impl OutputDirectory {
                 buffer: Ok(BufWriter::new(file)),
                 part,
                 path,
+                unfinished: self.unfinished,
                 has_failed: Arc::clone(&self.has_failed),
             })),
         })
@@ -401,6 +522,11 @@ fn new_file(path: &Path) -> io::Result<File> {
     options.read(true).write(true).create_new(true).open(path)
 }
 
+/// Whether it is a file itself: no link and no directory.
+fn is_plain(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|known| known.is_file())
+}
+
 /// The name of a file that is not finished, which no other process or thread has, on any machine.
 pub(crate) fn own_part(path: &Path) -> PathBuf {
     static COUNT: AtomicU64 = AtomicU64::new(0);
@@ -408,25 +534,6 @@ pub(crate) fn own_part(path: &Path) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(format!(".{}-{count}.part", process::Process::own().name()));
     path.with_file_name(name)
-}
-
-/// Writes a single file next to its place and renames it; a link at its place is replaced.
-///
-/// # Errors
-/// - [`FileError::Refused`]: it cannot be written; an older file stays as it is.
-pub fn replace_file(path: &Path, content: &[u8]) -> Result<(), FileError> {
-    let part = own_part(path);
-    let mut file = new_file(&part).map_err(FileError::refused(MAKE, path))?;
-    let written = file.write_all(content);
-    drop(file);
-    let renamed = written
-        .map_err(FileError::refused("write", path))
-        .and_then(|()| fs::rename(&part, path).map_err(FileError::refused("rename to", path)));
-    if renamed.is_err() {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&part);
-    }
-    renamed
 }
 
 /// The value of a mutex, if it is free within a short time.
@@ -459,6 +566,7 @@ struct Content {
     buffer: Result<BufWriter<File>, io::Error>,
     part: PathBuf,
     path: PathBuf,
+    unfinished: Unfinished,
     /// Of the directory.
     has_failed: Arc<AtomicBool>,
 }
@@ -470,10 +578,24 @@ impl OutputFile {
     /// - [`FileError::Refused`]: not everything could be written, and the file keeps the name
     ///   `.part`; or it could not be renamed.
     pub fn finish(self) -> Result<PathBuf, FileError> {
+        self.flushed()?;
+        self.content().rename()
+    }
+
+    /// Writes all of this.
+    ///
+    /// # Errors
+    /// - [`FileError::Refused`]: not everything could be written.
+    pub fn put(&mut self, bytes: &[u8]) -> Result<(), FileError> {
+        let mut content = self.content();
+        let put = content.with(|buffer| buffer.write_all(bytes));
+        put.map_err(FileError::refused("write", &content.part))
+    }
+
+    fn flushed(&self) -> Result<(), FileError> {
         let mut content = self.content();
         let flushed = content.with(Write::flush);
-        flushed.map_err(FileError::refused("write", &content.part))?;
-        content.rename()
+        flushed.map_err(FileError::refused("write", &content.part))
     }
 
     /// Like [`Self::finish`], for a run that stopped early: the part that has been written gets the
@@ -495,10 +617,9 @@ impl OutputFile {
     /// # Errors
     /// - [`FileError::Refused`]: not everything could be written, or it cannot be read.
     pub fn written(&mut self) -> Result<File, FileError> {
-        let mut content = self.content();
-        let flushed = content.with(Write::flush);
-        flushed.map_err(FileError::refused("write", &content.part))?;
-        File::open(&content.part).map_err(FileError::refused("read", &content.part))
+        self.flushed()?;
+        let part = self.part();
+        File::open(&part).map_err(FileError::refused("read", &part))
     }
 
     /// Waits until everything written so far is on the disk, not only passed to the operating
@@ -525,22 +646,29 @@ impl OutputFile {
 }
 
 impl Drop for Content {
-    /// Nothing refers to a file that is given up. What a failure or a panic has left is kept.
+    /// Nothing refers to a file that is given up. What a failure or a panic has left is kept, if a
+    /// part of it means something.
     fn drop(&mut self) {
-        let is_kept = self.has_failed.load(Ordering::Relaxed) || std::thread::panicking();
-        if is_kept && self.with(Write::flush).is_ok() {
+        let fails = self.has_failed.load(Ordering::Relaxed) || std::thread::panicking();
+        if fails && self.unfinished == Unfinished::Kept && self.with(Write::flush).is_ok() {
             self.close(ErrorKind::BrokenPipe.into());
         }
-        let gone = Err(ErrorKind::BrokenPipe.into());
-        if let Ok(buffer) = mem::replace(&mut self.buffer, gone) {
-            drop(buffer.into_parts());
-            // A file that cannot be removed has the name `.part`.
-            let _ = fs::remove_file(&self.part);
-        }
+        self.remove();
     }
 }
 
 impl Content {
+    /// Removes the file, if it is not finished.
+    fn remove(&mut self) {
+        let gone = Err(ErrorKind::BrokenPipe.into());
+        let is_open = mem::replace(&mut self.buffer, gone).map(BufWriter::into_parts);
+        if is_open.is_ok() || self.unfinished == Unfinished::Removed {
+            drop(is_open);
+            // A file that cannot be removed has the name `.part`.
+            let _ = fs::remove_file(&self.part);
+        }
+    }
+
     fn rename(&mut self) -> Result<PathBuf, FileError> {
         // Closed before renaming, because some systems do not rename open files. A failed flush is
         // not tried again.
@@ -552,9 +680,12 @@ impl Content {
         Ok(self.path.clone())
     }
 
-    /// Keeps the whole lines under the final name, if the file is still being written.
+    /// Keeps the whole lines under the final name, if the file is still being written and a part
+    /// of it means something.
     fn abandon(&mut self) {
-        if self.with(Write::flush).is_ok() {
+        if self.unfinished == Unfinished::Removed {
+            self.remove();
+        } else if self.with(Write::flush).is_ok() {
             self.close(ErrorKind::BrokenPipe.into());
             // Its `.part` name is sufficient if this fails.
             let _ = fs::rename(&self.part, &self.path);

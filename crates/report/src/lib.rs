@@ -29,7 +29,7 @@ pub mod work_precision;
 
 pub use documents::{AnalysisDocument, Ending, PlanDocument, Run, RunDocument, write_json};
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Png, PngError, Series, Style};
-pub use files::{FileError, OutputDirectory, OutputFile, PROVENANCE, is_ours, replace_file};
+pub use files::{Family, FileError, OutputDirectory, OutputFile, PROVENANCE, Replaces, is_ours};
 pub use html::{
     ComparedChoice, Comparison, DriveCurve, Freedom, Origin, RunPage, Shows, WrittenScene,
     numbers_per_row, run_page,

@@ -40,7 +40,7 @@ pub use records::Records;
 pub use row::{Extreme, SweepMotion, SweepRow, SweepStatus};
 pub use runs::Runs;
 pub use shards::{Shards, end_attempts};
-pub use tables::{FILES, write_sweep};
+pub use tables::{FAMILY, write_sweep};
 
 /// Description of a sweep: everything on which its rows depend, and the names in them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

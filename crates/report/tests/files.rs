@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 
-use pfaff_report::OutputDirectory;
+use pfaff_report::{Family, OutputDirectory, Replaces};
 
 /// An empty directory for one test.
 fn place(name: &str) -> PathBuf {
@@ -204,7 +204,8 @@ fn a_process_that_is_ended_leaves_whole_lines_and_a_summary() {
     let earlier = OutputDirectory::create(&path).expect("makes it");
     let mut table = earlier.file("a.csv").expect("begins");
     table.write_all(b"t,a.x\n0,1\n0.1,").expect("writes");
-    assert!(earlier.abandon_as("summary.json", b"{}", &["a.csv", "b.csv", "summary.json"]));
+    const FAMILY: Family = Family(&["a.csv", "b.csv", "summary.json"]);
+    assert!(earlier.abandon_as("summary.json", b"{}", FAMILY));
     let read = |name: &str| fs::read_to_string(path.join(name)).unwrap_or_default();
     assert_eq!(read("a.csv"), "t,a.x\n0,1\n");
     assert_eq!(read("summary.json"), "{}");
@@ -213,6 +214,17 @@ fn a_process_that_is_ended_leaves_whole_lines_and_a_summary() {
     table.write_all(b"2\n").expect_err("it is over");
     assert_eq!(read("a.csv"), "t,a.x\n0,1\n");
 }
+
+/// One of each kind of file.
+const EVERY: Family = Family(&[
+    "trajectory.csv",
+    "work_precision.csv",
+    "sweep.csv",
+    "summary.json",
+    "report.html",
+    "scene.toml",
+    "binary.svg",
+]);
 
 #[test]
 fn what_somebody_else_has_written_is_recognised() {
@@ -249,7 +261,7 @@ fn what_somebody_else_has_written_is_recognised() {
         ("binary.svg", "\u{0}\u{1}", false),
     ] {
         fs::write(path.join(name), content).expect("writable");
-        let found = directory.check_ours(&[name, "missing.csv"]);
+        let found = directory.check_ours(EVERY);
         assert_eq!(found.is_ok(), is_own, "{name}: {content}");
         if let Err(error) = found {
             assert!(
@@ -257,6 +269,7 @@ fn what_somebody_else_has_written_is_recognised() {
                 "{error}"
             );
         }
+        fs::remove_file(path.join(name)).expect("written");
     }
 }
 
@@ -274,11 +287,21 @@ fn nothing_is_written_through_a_link() {
     }
     directory.write("x.csv", b"1\n").expect("writes");
     assert!(!path.join("x.csv").is_symlink() && !path.join("x.csv.part").exists());
+    // A single file that the user names is not a link.
     let single = path.join("y.html");
     symlink(&precious, &single).expect("links");
-    pfaff_report::replace_file(&single, b"page").expect("writes");
-    assert!(!single.is_symlink());
-    assert_eq!(fs::read_to_string(single).expect("readable"), "page");
+    let error = OutputDirectory::around(&single, Replaces::Files).expect_err("a link");
+    assert!(
+        error.is_place() && error.to_string().contains("y.html"),
+        "{error}"
+    );
+    // What is removed is never a link, either.
+    symlink(path.join("x.csv"), path.join("a.csv")).expect("links");
+    fs::write(path.join("x.csv"), "t,a.x\n0,1\n").expect("writable");
+    let family = Family(&["a.csv", "x.csv"]);
+    let removed = directory.keep(family, &["b.csv"]).expect("removes");
+    assert_eq!(removed, ["x.csv"]);
+    assert!(path.join("a.csv").is_symlink());
     assert_eq!(fs::read_to_string(precious).expect("readable"), "mine");
 }
 

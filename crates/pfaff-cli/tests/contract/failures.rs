@@ -123,3 +123,80 @@ fn a_place_that_takes_no_results_is_wrong_input() {
     let d = failure(&pfaff(&["simulate", ROBOT, "--json", "--out", out]), 2);
     assert_eq!(d["problems"], json!([]));
 }
+
+/// Moments of which one is above the sum of the others: the scene is written, and no body has them.
+const NO_BODY: &str = "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/>\
+    <inertial pos='0 0 -0.5' mass='1' diaginertia='0.1 0.1 0.9'/></body></worldbody></mujoco>";
+
+/// Whatever ends a command with 1, its document has the code and the reason.
+#[test]
+fn every_document_of_exit_code_1_has_its_code_and_error() {
+    let folder = Folder::new("json-code-1");
+    std::fs::create_dir_all(&folder.0).expect("writable");
+    let file = |name: &str, text: &str| {
+        let path = folder.0.join(name);
+        std::fs::write(&path, text).expect("writable");
+        path.display().to_string()
+    };
+    let at = |name: &str| folder.0.join(name).display().to_string();
+    let (scene, model) = (file("scene.toml", PENDULUM), file("model.xml", NO_BODY));
+    let stops = file("stops.toml", &contradiction_at_half_a_second());
+    let half = [
+        "sweep",
+        &scene,
+        "--vary",
+        "body.bob.mass=1,2",
+        "--shard",
+        "1/2",
+        "--out",
+        &at("half"),
+    ];
+    assert_eq!(pfaff(&half).status.code(), Some(0));
+    let little = ["--max-memory", "1B"];
+    let limited = [
+        vec!["analyze", &scene],
+        vec!["check", &scene],
+        vec!["plan", &scene],
+        vec!["linearise", &scene],
+        vec!["equilibrium", &scene],
+        vec!["diff", &scene, &scene],
+    ];
+    let (out, page, mended) = (at("out"), at("page.html"), at("mended.toml"));
+    let limited_files = [
+        vec!["simulate", &scene, "--out", &out],
+        vec!["tolerance", &scene, "--tolerance", "1e-3", "--out", &out],
+        vec!["view", &scene, "--out", &page],
+        vec!["import", &model, "--out", &mended],
+    ];
+    let limited = limited.into_iter().chain(limited_files);
+    let limited = limited.map(|command| ([&command[..], &little].concat(), "P0007"));
+    let (swept, merged) = (at("swept"), at("merged"));
+    let half = at("half");
+    let others = [
+        (vec!["import", &model, "--out", &mended], "P0153"),
+        (vec!["simulate", &stops, "--out", &out], "P0"),
+        (
+            vec![
+                "sweep",
+                &stops,
+                "--vary",
+                "simulate.t_end=0.4,0.6",
+                "--out",
+                &swept,
+            ],
+            "P0514",
+        ),
+        (vec!["sweep", "--merge", &half, "--out", &merged], "P0514"),
+    ];
+    for (command, code) in limited.chain(others) {
+        let output = pfaff(&[&command[..], &["--json"]].concat());
+        assert_eq!(output.status.code(), Some(1), "{command:?}: {output:?}");
+        assert_eq!(stderr(&output), "", "{command:?}");
+        let d: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+        let has = d["code"]
+            .as_str()
+            .is_some_and(|found| found.starts_with(code));
+        let says = d["error"].as_str().is_some_and(|error| !error.is_empty());
+        assert!(has && says, "{command:?}: {} {}", d["code"], d["error"]);
+    }
+}

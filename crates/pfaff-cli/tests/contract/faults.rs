@@ -82,7 +82,7 @@ fn wait_until(what: &str, mut is_true: impl FnMut() -> bool) {
 
 /// The command under a limit of the shell: of the size of files (then no signal ends it), of
 /// memory.
-fn with_limit(limit: &str, arguments: &[&str]) -> Output {
+pub(crate) fn with_limit(limit: &str, arguments: &[&str]) -> Output {
     let script = format!("trap '' XFSZ; ulimit {limit}; exec \"$0\" \"$@\"");
     let mut command = Command::new("sh");
     command.args(["-c", &script, env!("CARGO_BIN_EXE_pfaff")]);
@@ -390,11 +390,8 @@ fn a_second_request_ends_the_program_at_once() {
     assert!(rows(&out.0.join("trajectory.csv")).0 > 100);
 }
 
-#[test]
-fn what_has_nothing_to_keep_ends_at_once() {
-    // A motion of several days, with verdicts along it.
-    let (_folder, scene) = place("faults-along", "50000.0");
-    let mut child = begun(&["analyze", &scene, "--along"], Stdio::piped());
+#[track_caller]
+fn wait_until_it_listens(child: &Child) {
     let state = format!("/proc/{}/status", child.id());
     // Bit 1 of the mask of caught signals is SIGINT.
     wait_until("it listens", || {
@@ -403,6 +400,38 @@ fn what_has_nothing_to_keep_ends_at_once() {
         mask.and_then(|m| u64::from_str_radix(m.trim(), 16).ok())
             .is_some_and(|m| m & 2 != 0)
     });
+}
+
+#[test]
+fn an_interrupted_import_writes_nothing() {
+    let folder = Folder::new("faults-import");
+    fs::create_dir_all(&folder.0).expect("writable");
+    let out = folder.0.join("scene.toml").display().to_string();
+    for signal in ["-INT", "-TERM", "-HUP"] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_pfaff"));
+        command.args(["import", "-", "--out", &out, "--json"]);
+        // It waits for the rest of its input.
+        command.stdin(Stdio::piped()).stdout(Stdio::piped());
+        let mut child = command.spawn().expect("the command starts");
+        let input = child.stdin.take();
+        wait_until_it_listens(&child);
+        send(signal, &child);
+        let output = child.wait_with_output().expect("it ends");
+        drop(input);
+        assert_eq!(output.status.code(), Some(1), "{signal}");
+        let document: Value = serde_json::from_slice(&output.stdout).expect("one document");
+        assert_eq!(document["code"], "P0008");
+        assert_eq!(document["error"], "interrupted; nothing was written");
+        assert_eq!(contents(&folder).len(), 0);
+    }
+}
+
+#[test]
+fn what_has_nothing_to_keep_ends_at_once() {
+    // A motion of several days, with verdicts along it.
+    let (_folder, scene) = place("faults-along", "50000.0");
+    let mut child = begun(&["analyze", &scene, "--along"], Stdio::piped());
+    wait_until_it_listens(&child);
     send("-INT", &child);
     assert_eq!(child.wait().expect("it ends").code(), Some(1));
 }

@@ -12,6 +12,7 @@ mod cold_start;
 mod console;
 mod couplings;
 mod diff;
+mod directory;
 mod documents;
 mod equilibrium;
 mod explain;

@@ -1,8 +1,8 @@
 //! Whether a file was written by this program, as far as its beginning shows. Whatever is not
 //! recognised is somebody else's and is not replaced.
 
-use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 /// Bytes that are read to recognise a file.
@@ -15,20 +15,31 @@ pub const PROVENANCE: &str = "# Written by pfaff";
 /// this program. What cannot be read is not ours.
 #[must_use]
 pub fn is_ours(path: &Path) -> bool {
-    let mut head = Vec::new();
-    match File::open(path) {
-        Ok(file) => {
-            if file.take(HEAD).read_to_end(&mut head).is_err() {
-                return false;
-            }
-        }
+    match head_of(path) {
+        Ok(head) => head.is_empty() || has_mark(path, &head),
         // A link that leads nowhere has nothing to lose.
-        Err(e) => return matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory),
+        Err(e) => matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory),
     }
-    if head.is_empty() {
-        return true;
+}
+
+/// Whether this program has written a file: only such a file may be removed. A link is of whoever
+/// made it.
+pub(super) fn is_marked(path: &Path) -> bool {
+    super::is_plain(path) && head_of(path).is_ok_and(|head| has_mark(path, &head))
+}
+
+fn head_of(path: &Path) -> io::Result<Vec<u8>> {
+    // A pipe would be waited for.
+    if !fs::metadata(path)?.is_file() {
+        return Err(ErrorKind::InvalidInput.into());
     }
-    let text = String::from_utf8_lossy(&head);
+    let mut head = Vec::new();
+    File::open(path)?.take(HEAD).read_to_end(&mut head)?;
+    Ok(head)
+}
+
+fn has_mark(path: &Path, head: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(head);
     let ending = path.extension().and_then(|ending| ending.to_str());
     match ending.map(str::to_ascii_lowercase).as_deref() {
         Some("csv") => is_table(text.lines().next().unwrap_or_default()),
@@ -40,7 +51,7 @@ pub fn is_ours(path: &Path) -> bool {
         Some("svg") => text.contains(crate::figures::GENERATOR),
         Some("toml") => text.starts_with(PROVENANCE),
         Some("parquet") => text.starts_with("PAR1"),
-        Some("png") => is_picture(&head),
+        Some("png") => is_picture(head),
         _ => false,
     }
 }
@@ -64,7 +75,7 @@ fn is_table(header: &str) -> bool {
         Some("sample") => names.next() == Some("status"),
         Some("run") => names.any(|name| name == "status"),
         // Matrices of a linearised motion, with the names of their columns.
-        Some("A" | "B" | "M" | "D" | "K") => true,
+        Some("A" | "B" | "M" | "D" | "K") => names.all(|name| name.contains('.')),
         Some("mode") => header.starts_with("mode,real,imaginary,"),
         Some("scene") => header.starts_with("scene,formulation,method,"),
         _ => false,

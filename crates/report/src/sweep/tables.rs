@@ -4,11 +4,22 @@
 use super::document::Extent;
 use super::{Records, SweepDocument};
 use crate::documents::write_json;
-use crate::files::{FileError, OutputDirectory};
+use crate::files::{Family, FileError, OutputDirectory};
 use crate::tables::{Table, TableError};
 
 /// The tables of a sweep.
-pub const FILES: [&str; 3] = ["sweep.csv", "sweep.parquet", "summary.json"];
+pub const FAMILY: Family = Family(&[TABLE, PARQUET, SUMMARY]);
+
+const TABLE: &str = "sweep.csv";
+const PARQUET: &str = "sweep.parquet";
+const SUMMARY: &str = "summary.json";
+
+/// Those that this program writes.
+const WRITTEN: &[&str] = if cfg!(feature = "parquet") {
+    FAMILY.0
+} else {
+    &[TABLE, SUMMARY]
+};
 
 /// Writes `sweep.csv`, `sweep.parquet` if this is compiled in, and `summary.json`, each beside its
 /// place: several processes may do so at the same time, and the last one stays.
@@ -21,23 +32,24 @@ pub fn write_sweep<E: From<FileError> + From<TableError>>(
 ) -> Result<SweepDocument, E> {
     let columns = records.plan.columns();
     let names: Vec<String> = columns.iter().map(|c| c.name.clone()).collect();
-    let mut table = Table::new("sweep.csv", directory.file("sweep.csv")?, &names)?;
+    let mut table = Table::new(TABLE, directory.file(TABLE)?, &names)?;
     for cells in records.rows.values() {
         table.record(cells)?;
     }
     table.finish()?.finish()?;
     #[cfg(feature = "parquet")]
     {
-        let file = directory.file("sweep.parquet")?;
+        let file = directory.file(PARQUET)?;
         let rows: Vec<&[super::Cell]> = records.rows.values().map(Vec::as_slice).collect();
         super::parquet::write(file, &records.plan, &columns, &rows)?.finish()?;
     }
     let document = SweepDocument::new(records, Extent::Whole);
     let mut text = Vec::new();
     write_json(&mut text, &document).map_err(|source| TableError::Write {
-        table: "summary.json",
+        table: SUMMARY,
         source,
     })?;
-    directory.write("summary.json", &text)?;
+    directory.write(SUMMARY, &text)?;
+    directory.keep(FAMILY, WRITTEN)?;
     Ok(document)
 }
