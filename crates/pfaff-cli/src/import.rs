@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use pfaff::import::{Axes, FixedLinks, Folder, Imported, Omission, Options, Refusal};
-use pfaff::memory::{of_import, of_reading};
+use pfaff::memory::of_import;
 use pfaff::report::documents::{ImportDocument, OmissionDocument};
 
 use crate::args::Import;
@@ -18,7 +18,7 @@ pub(crate) fn run(arguments: &Import, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
     let standard_output = arguments.out.as_os_str() == "-";
     let (name, text) = text_of(&arguments.file)?;
-    let memory = of_import(text.len());
+    let memory = of_import(text.len(), 0);
     arguments.memory.allow(memory, "importing this file")?;
     let imported = pfaff::import::import(&name, &text, &options(arguments)?);
     let imported = imported.map_err(|refusal| refused(*refusal))?;
@@ -30,8 +30,8 @@ pub(crate) fn run(arguments: &Import, console: &Console<'_>) -> Outcome {
             console.print(&imported.scene)
         };
     }
-    let memory = of_reading(imported.scene.len());
-    arguments.memory.allow(memory, "reading the scene")?;
+    let memory = of_import(text.len(), imported.scene.len());
+    arguments.memory.allow(memory, "reading its scene")?;
     let file = arguments.out.display().to_string();
     let read = pfaff::scene::read(&file, &imported.scene, console.registry);
     let shortfall = read.err().and_then(|list| {

@@ -40,14 +40,18 @@ pub fn of_reading(text: usize) -> usize {
     FLOOR + OF_TEXT.saturating_mul(text)
 }
 
-/// Bytes for each byte of a file to import: its elements, the model, and the text of the scene.
-const OF_IMPORT: usize = 45;
+/// Bytes for each byte of a file to import: its elements.
+const OF_ELEMENTS: usize = 6;
+
+/// Bytes for each byte of a scene that has been imported: its model, its text, and reading it.
+const OF_IMPORTED: usize = 40;
 
 /// Estimated memory (bytes) for importing a text of this length, without the files that it
-/// includes.
+/// includes, and for reading a scene of this length that is made of it.
 #[must_use]
-pub fn of_import(text: usize) -> usize {
-    FLOOR + OF_IMPORT.saturating_mul(text)
+pub fn of_import(text: usize, scene: usize) -> usize {
+    let elements = OF_ELEMENTS.saturating_mul(text);
+    FLOOR + elements.saturating_add(OF_IMPORTED.saturating_mul(scene))
 }
 
 impl AssembledScene {
