@@ -40,6 +40,7 @@ mod parts;
 mod plain;
 mod planted_matrices;
 mod planted_mechanisms;
+mod results_as_data;
 mod robot_trolley;
 mod robots;
 mod second_order;

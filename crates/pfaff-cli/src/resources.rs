@@ -53,6 +53,7 @@ impl Resources {
         let _said = Stage::begin(source, "reading and building");
         let of = (source.name.as_str(), source.text.as_str());
         Ok(self
+            .memory
             .budget()
             .assembled(of, source.registry, source.tolerance)?)
     }

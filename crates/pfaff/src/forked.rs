@@ -9,6 +9,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::ThreadPool;
 
+use crate::workers::{Workers, alone};
+
 /// The process that first did parallel work; 0 before.
 static FIRST: AtomicU32 = AtomicU32::new(0);
 
@@ -34,7 +36,10 @@ fn own_pool() -> Option<Arc<ThreadPool>> {
     {
         return Some(Arc::clone(pool));
     }
-    let pool = Arc::new(crate::pool(None).ok()?);
+    let Workers::Own(pool) = Workers::start(None) else {
+        return None;
+    };
+    let pool = Arc::new(pool);
     // The end of a pool waits for its threads, and those of the parent do not exist here.
     std::mem::forget(kept.replace((own, Arc::clone(&pool))));
     Some(pool)
@@ -58,7 +63,7 @@ pub fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
 pub fn on_this_thread<T>(work: impl FnOnce() -> T) -> T {
     if is_forked() && rayon::current_thread_index().is_none() {
         // The thread keeps its pool of one until it ends.
-        std::mem::forget(crate::alone().build());
+        std::mem::forget(alone().build());
     }
     work()
 }

@@ -28,13 +28,15 @@ pub fn start_threads(threads: Option<NonZeroUsize>) -> bool {
                 let pool = ThreadPoolBuilder::new().num_threads(waiting.len());
                 pool.spawn_handler(to_these(waiting)).build_global()
             }
-            Err(_) => {
-                let alone = ThreadPoolBuilder::new().num_threads(1);
-                alone.use_current_thread().build_global()
-            }
+            Err(_) => alone().build_global(),
         };
         started
     })
+}
+
+/// A pool of the thread that calls.
+pub(crate) fn alone() -> ThreadPoolBuilder {
+    ThreadPoolBuilder::new().num_threads(1).use_current_thread()
 }
 
 /// Number of threads of parallel computations.

@@ -60,12 +60,12 @@ fn many_attributes_cost_no_time() {
         )),
         ..Options::default()
     };
-    let done = import::import("robot.urdf", robot, &options).expect("imported");
+    let done = pfaff_import::import("robot.urdf", robot, &options).expect("imported");
     assert_eq!(done.omissions.len(), 64_000);
     // Elements in one line, each of which is left out.
     let left = "<x/>".repeat(64_000);
     let wide = robot.replacen("<link", &format!("{left}<link"), 1);
-    let done = import::import("robot.urdf", &wide, &Options::default()).expect("imported");
+    let done = pfaff_import::import("robot.urdf", &wide, &Options::default()).expect("imported");
     assert_eq!(done.omissions.len(), 64_000);
     // Poses in one circle.
     let frame = |k: usize| {

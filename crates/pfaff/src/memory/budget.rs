@@ -91,7 +91,7 @@ impl Budget {
         let verdicts = memory_of_verdicts(mechanism, crate::threads());
         let verdicts = verdicts.map_err(|e| Refusal::of((name, text), e.into()))?;
         self.allow(
-            reading.saturating_add(verdicts),
+            reading.saturating_add(verdicts.most(0)),
             "deciding the ranks of this scene",
         )
     }

@@ -3,7 +3,7 @@
 /// The names of the files that one kind of answer can have. In a name, `*` stands for a number.
 ///
 /// ```
-/// use report::Family;
+/// use pfaff_report::Family;
 /// const PAGES: Family = Family(&["modes.csv", "mode-*.html"]);
 /// assert!(PAGES.has("modes.csv") && PAGES.has("mode-12.html"));
 /// assert!(!PAGES.has("mode-.html") && !PAGES.has("mode-1a.html"));
