@@ -6,16 +6,21 @@ use pfaff::model::Registry;
 use pfaff::{Overrides, Study};
 use serde_json::{Value, json, to_value};
 
-/// A beam on three supports, of which none carries a known share.
+/// A beam between two pins, which share the force along it as they like.
 const BEAM: &str = "
-[body.beam]
+[scene]
+name = 'beam'
+[[body]]
+name = 'beam'
 mass = 2.0
 inertia = 1.0
-[joint.left]
+[[joint]]
+name = 'left'
 type = 'revolute'
 bodies = ['ground', 'beam']
 at = [-1.0, 0.0]
-[joint.right]
+[[joint]]
+name = 'right'
 type = 'revolute'
 bodies = ['ground', 'beam']
 at = [1.0, 0.0]
@@ -36,9 +41,9 @@ fn a_rank_is_data() {
     let decision = rank::decide(&c, rank::Accuracy::Exact).expect("decided");
     let data = to_value(&decision).expect("data");
     assert_eq!((&data["rank"], &data["redundancy"]), (&json!(1), &json!(1)));
-    // The second row is twice the first.
-    assert_eq!(data["coefficients"], json!([[2.0]]), "{data}");
-    assert_eq!(data["kept"], json!([0]));
+    // The larger row is kept; the other is half of it.
+    assert_eq!(data["coefficients"], json!([[0.5]]), "{data}");
+    assert_eq!(data["kept"], json!([1]));
 }
 
 #[test]

@@ -7,10 +7,10 @@
 //! of the [`ConstraintSpec`].
 
 use crate::arguments::{Argument, ArgumentError};
-use crate::definition::Definition;
+use crate::element::{Element, Reaction};
 use crate::program::Programs;
 use crate::ring::{Real, Scalar};
-use crate::slopes::{self, At, Sloped, Slopes};
+use crate::slopes::{self, At, OfKind, Sloped, Slopes};
 use crate::space::{Plane, Space};
 use crate::spec::ConstraintSpec;
 use crate::visitor::Visitor;
@@ -22,7 +22,7 @@ pub trait Constraint<S: Space = Plane>: ConstraintKernels<S> + Clone + 'static {
     const SPEC: ConstraintSpec;
 
     /// The constraint with these values for its parameters; initial values are zero until
-    /// [`Definition::initialise`].
+    /// [`crate::Definition::initialise`].
     ///
     /// # Errors
     /// If a value is missing, of another shape or out of range.
@@ -38,43 +38,6 @@ pub trait Constraint<S: Space = Plane>: ConstraintKernels<S> + Clone + 'static {
     fn reaction<T: Real>(&self) -> &dyn Reaction<T, S>;
 }
 
-/// The rows of a constraint in closed form, for one number type.
-pub trait Element<T: Scalar = f64, S: Space = Plane>: Definition<S> {
-    /// The specification of the definition.
-    fn spec(&self) -> &'static ConstraintSpec;
-
-    /// Writes `Φ`, one value for each holonomic row.
-    fn phi(&self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]);
-
-    /// Writes the entries of the block of C that depend on parameters only; the others are not
-    /// changed.
-    fn c_constant(&self, _out: &mut [T]) {}
-
-    /// Writes the other entries of the block of C: `C = ∂Φ̇/∂v` or `Ψ`.
-    fn c(&self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]);
-
-    /// Writes `b = −Φt` or `−ψ`, one value for each row; nothing for scleronomic constraints, whose
-    /// b is zero.
-    fn b(&self, _x: &[S::Pose<T>], _f: &[[T; 3]], _out: &mut [T]) {}
-
-    /// Writes `Γ` of `C·a = Γ`, one value for each row.
-    fn gamma(&self, x: &[S::Pose<T>], v: &[S::Twist<T>], f: &[[T; 3]], out: &mut [T]);
-
-    /// Writes the coefficients of the named component of the reaction, `Σ out·λ`; nothing if there
-    /// is none.
-    fn component(&self, _x: &[S::Pose<T>], _f: &[[T; 3]], _out: &mut [T]) {}
-}
-
-/// The reaction of a constraint in closed form, for one number type.
-pub trait Reaction<T: Real = f64, S: Space = Plane> {
-    /// Entries of the map `W` (components × rows) of the wrench on the first body, `W·λ` =
-    /// `[Fx, Fy, T]` or `[Fx, Fy, Fz, Tx, Ty, Tz]`, with the moment about the place.
-    fn wrench(&self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]);
-
-    /// The point at which the reaction is reported, global components.
-    fn place(&self, x: &[S::Pose<T>]) -> S::Vector<T>;
-}
-
 /// All kernels of a constraint as a trait object: rows and reaction in `f64`, their derivatives,
 /// and the rows in any other number type.
 ///
@@ -87,13 +50,13 @@ pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S
     /// Adds the numbers that the programs take of this constraint to `out`.
     fn stored(&self, out: &mut Vec<f64>);
 
-    /// Tells the derivatives of these numbers by those of [`Definition::data`] that are not zero:
+    /// Tells the derivatives of these numbers by those of [`crate::Definition::data`] that are not zero:
     /// index among the former, index among the latter, value.
     fn d_stored_dp(&self, entry: &mut dyn FnMut(usize, usize, f64));
 
     /// Entries of `∂(Cᵀλ)/∂x`, by the degrees of freedom of the slots.
     fn d_force_dx(&self, x: &[S::Pose<f64>], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
-        slopes::d_force_dx(self, (x, f), lambda, out);
+        slopes::d_force_dx::<S>(&of_kind(self), (x, f), lambda, out);
     }
 
     /// Entries of `∂(C·a − Γ)/∂x`.
@@ -105,12 +68,12 @@ pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S
         f: &[[f64; 3]],
         out: &mut [f64],
     ) {
-        slopes::d_residual_dx(self, At { x, v: Some(v), f }, a, out);
+        slopes::d_residual_dx::<S>(&of_kind(self), At { x, v: Some(v), f }, a, out);
     }
 
     /// Entries of `∂Γ/∂v`.
     fn d_gamma_dv(&self, x: &[S::Pose<f64>], v: &[S::Twist<f64>], f: &[[f64; 3]], out: &mut [f64]) {
-        slopes::d_gamma_dv(self, At { x, v: Some(v), f }, out);
+        slopes::d_gamma_dv::<S>(&of_kind(self), At { x, v: Some(v), f }, out);
     }
 
     /// Entries of `∂(C·v − b)/∂x`.
@@ -121,16 +84,29 @@ pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S
         f: &[[f64; 3]],
         out: &mut [f64],
     ) {
-        slopes::d_velocity_dx(self, At { x, v: Some(v), f }, out);
+        slopes::d_velocity_dx::<S>(&of_kind(self), At { x, v: Some(v), f }, out);
     }
 
-    /// Derivatives of the rows by the numbers of [`Definition::data`].
+    /// Derivatives of the rows by the numbers of [`crate::Definition::data`].
     fn slopes(&self, x: &[S::Pose<f64>], f: &[[f64; 3]], of: Sloped<'_, S>) -> Slopes {
-        Slopes::of(self, (x, f), of)
+        let mut of_stored = Vec::new();
+        self.d_stored_dp(&mut |place, number, slope| of_stored.push((place, number, slope)));
+        Slopes::of(&of_kind(self), &of_stored, (x, f), of)
     }
 
     /// A copy.
     fn boxed(&self) -> Box<dyn ConstraintKernels<S>>;
+}
+
+/// The programs of a constraint with its numbers.
+fn of_kind<S: Space>(kernels: &(impl ConstraintKernels<S> + ?Sized)) -> OfKind<'_> {
+    let mut stored = Vec::new();
+    kernels.stored(&mut stored);
+    OfKind {
+        spec: kernels.spec(),
+        programs: kernels.programs(),
+        stored,
+    }
 }
 
 impl<S: Space> Clone for Box<dyn ConstraintKernels<S>> {

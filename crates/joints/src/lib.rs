@@ -13,7 +13,8 @@
 //! | [`spec`] | specifications of definitions: rows, parameters, patterns, counts |
 //! | [`arguments`] | values for the parameters of a definition |
 //! | [`definition`] | the numbers stored by constraints and forces |
-//! | [`constraint`] | the traits of constraints: a definition as a type, and its kernels |
+//! | [`element`] | the kernels of constraints in several number types: rows and reaction |
+//! | [`constraint`] | a definition of constraints as a type, and all its kernels |
 //! | [`force`] | the same for forces |
 //! | [`former`] | scene types that there were |
 //! | [`visitor`] | all definitions, one after the other, with their types |
@@ -22,6 +23,7 @@
 pub mod arguments;
 pub mod constraint;
 pub mod definition;
+pub mod element;
 pub mod force;
 pub mod former;
 pub mod generated;
@@ -36,8 +38,9 @@ pub mod spec;
 pub mod visitor;
 
 pub use arguments::{Argument, ArgumentError, LARGEST, is_usable};
-pub use constraint::{Constraint, ConstraintKernels, Element, Reaction};
+pub use constraint::{Constraint, ConstraintKernels};
 pub use definition::Definition;
+pub use element::{Element, Reaction};
 pub use force::{Force, ForceElement};
 pub use former::{FORMER_TYPES, FormerType};
 pub use generated::*;

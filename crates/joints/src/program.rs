@@ -9,7 +9,7 @@
 //! ([`crate::ConstraintKernels::stored`]), the poses of the slots, the functions of time with two
 //! derivatives each, and the twists of the slots.
 
-use crate::constraint::Element;
+use crate::element::Element;
 use crate::recorded::{Operation, Recorded, record};
 use crate::ring::Ring;
 use crate::space::Space;

@@ -252,7 +252,7 @@ impl OutputDirectory {
         let path = file.to_owned();
         let is_there = fs::symlink_metadata(file).is_ok();
         match replaces {
-            _ if is_there && !is_plain(file) => return Err(FileError::NoFile { path }),
+            _ if is_there && !ours::is_plain(file) => return Err(FileError::NoFile { path }),
             Replaces::Nothing if is_there => return Err(FileError::Exists { path }),
             Replaces::Ours if !is_ours(file) => {
                 return Err(FileError::Foreign { paths: vec![path] });
@@ -417,7 +417,10 @@ impl OutputDirectory {
             };
             let path = self.path.join(&name);
             let is_kept = !is_part && files.iter().any(|file| file.as_ref() == whole);
-            if is_kept || !family.has(whole) || !(is_part && is_plain(&path) || is_marked(&path)) {
+            if is_kept
+                || !family.has(whole)
+                || !(is_part && ours::is_plain(&path) || is_marked(&path))
+            {
                 continue;
             }
             match fs::remove_file(&path) {
@@ -520,11 +523,6 @@ fn new_file(path: &Path) -> io::Result<File> {
     }
     let mut options = File::options();
     options.read(true).write(true).create_new(true).open(path)
-}
-
-/// Whether it is a file itself: no link and no directory.
-fn is_plain(path: &Path) -> bool {
-    fs::symlink_metadata(path).is_ok_and(|known| known.is_file())
 }
 
 /// The name of a file that is not finished, which no other process or thread has, on any machine.

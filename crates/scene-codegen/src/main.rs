@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use model::Registry;
-use scene_codegen::{Choices, CodeError, scene};
+use pfaff_scene_codegen::{Choices, CodeError, scene};
 
 /// Writes one Rust module for one scene, with its numbers folded in and its kept rows eliminated in
 /// an order that is suitable for its whole motion.

@@ -25,7 +25,7 @@ pub fn is_ours(path: &Path) -> bool {
 /// Whether this program has written a file: only such a file may be removed. A link is of whoever
 /// made it.
 pub(super) fn is_marked(path: &Path) -> bool {
-    super::is_plain(path) && head_of(path).is_ok_and(|head| has_mark(path, &head))
+    is_plain(path) && head_of(path).is_ok_and(|head| has_mark(path, &head))
 }
 
 fn head_of(path: &Path) -> io::Result<Vec<u8>> {
@@ -80,4 +80,9 @@ fn is_table(header: &str) -> bool {
         Some("scene") => header.starts_with("scene,formulation,method,"),
         _ => false,
     }
+}
+
+/// Whether it is a file itself: no link and no directory.
+pub(super) fn is_plain(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|known| known.is_file())
 }
