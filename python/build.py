@@ -27,7 +27,7 @@ STUBS = HERE / "package" / "pfaff" / "_pfaff.pyi"
 HEADING = "# Written by `python python/build.py --write-stubs` from the compiled module.\n\n"
 PORTABLE = ("--zig", "--compatibility", "manylinux_2_28")
 """Zig links against the symbols of an older glibc; maturin refuses a wheel with later ones."""
-LICENCES = ("LICENSE-APACHE", "LICENSE-MIT")
+LICENCES = ("LICENSE-APACHE", "LICENSE-MIT", "THIRD-PARTY.md")
 
 
 def interpreter() -> Path:

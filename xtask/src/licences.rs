@@ -1,6 +1,6 @@
-//! `THIRD-PARTY.md`: the crates of others that the command `pfaff` links, and its fonts, with their
-//! licences and the texts of these, with all features, and the same of the package for Python. From
-//! `cargo tree`, which resolves features as a build does, and from the sources of the crates.
+//! `THIRD-PARTY.md`: the crates of others that the command `pfaff` and the package for Python link,
+//! and their fonts, with their licences and the texts of these, with all features. From `cargo
+//! tree`, which resolves features as a build does, and from the sources of the crates.
 //!
 //! cargo-about and cargo-deny do more, but they have to be installed first; this needs what builds
 //! the workspace, and `--check` needs no network.
@@ -19,39 +19,36 @@ use self::texts::texts;
 use crate::platforms::PLATFORMS;
 use crate::tree::{cargo, root, said_by};
 
-/// What is given to others, with the file about its crates.
+/// What is given to others.
 #[derive(Clone, Copy)]
 struct Product {
-    file: &'static str,
     /// The folder of its workspace.
     workspace: &'static str,
     package: &'static str,
-    /// What it is called.
+    /// What it is called in the file.
     name: &'static str,
-    /// What others have made besides crates, each with the file of its licence.
-    others: &'static [(&'static str, &'static str)],
 }
 
 const PRODUCTS: [Product; 2] = [
     Product {
-        file: "THIRD-PARTY.md",
         workspace: "",
         package: "pfaff-cli",
-        name: "command `pfaff`",
-        others: &[(
-            "the fonts DejaVu Sans Condensed",
-            "crates/report/fonts/LICENSE.txt",
-        )],
+        name: "command",
     },
     Product {
-        file: "python/THIRD-PARTY.md",
         workspace: "python",
         package: "pfaff-python",
-        name: "Python package `pfaff`",
-        others: &[],
+        name: "Python",
     },
 ];
 
+/// What others have made besides crates, with the file of its licence.
+const OTHERS: [(&str, &str); 1] = [(
+    "the fonts DejaVu Sans Condensed",
+    "crates/report/fonts/LICENSE.txt",
+)];
+
+const FILE: &str = "THIRD-PARTY.md";
 const WRITE: &str = "`cargo xtask licences` writes it anew";
 
 /// What is linked into the command, and what only builds it.
@@ -68,8 +65,8 @@ struct Package {
     repository: String,
 }
 
-/// Crates with the systems on which they are used.
-type Packages = BTreeMap<Package, BTreeSet<&'static str>>;
+/// Crates with the products and systems in which they are used.
+type Packages = BTreeMap<Package, BTreeSet<(&'static str, &'static str)>>;
 
 /// Whether cargo may download what it lacks.
 #[derive(Clone, Copy, PartialEq)]
@@ -78,17 +75,58 @@ enum Network {
     None,
 }
 
-/// Writes the files.
+/// Writes the file.
 pub(crate) fn write() -> Result<String, String> {
-    let said: Result<Vec<_>, _> = PRODUCTS.iter().map(|product| product.write()).collect();
-    Ok(said?.join("\n"))
+    let (mut linked, mut building) = (Packages::new(), Packages::new());
+    let mut sources = BTreeMap::new();
+    for product in PRODUCTS {
+        for (target, system) in PLATFORMS {
+            let of = |edges| product.packages(target, edges, Network::Allowed);
+            let own = of(LINKED)?;
+            let mut others = of(BUILDING)?;
+            others.retain(|package| !own.contains(package));
+            add(&mut linked, own, (product.name, system));
+            add(&mut building, others, (product.name, system));
+            sources.extend(metadata(&product.folder(), target)?);
+        }
+    }
+    for package in linked.keys().chain(building.keys()) {
+        taken(&package.licence).map_err(|e| format!("{}: {e}", package.name))?;
+    }
+    let text = document(&linked, &building, &sources)?;
+    fs::write(root().join(FILE), text).map_err(|e| format!("{FILE}: {e}"))?;
+    building.retain(|package, _| !linked.contains_key(package));
+    Ok(format!(
+        "{FILE}: {} crates linked, {} only for building",
+        linked.len(),
+        building.len()
+    ))
 }
 
-/// Compares the tables of the files with what is locked, without a network. A platform whose crates
+/// Compares the tables of the file with what is locked, without a network. A platform whose crates
 /// are not on this machine is compared with `Cargo.lock` by name and version alone.
 pub(crate) fn check() -> Result<String, String> {
-    let said: Result<Vec<_>, _> = PRODUCTS.iter().map(|product| product.check()).collect();
-    Ok(said?.join("\n"))
+    let text =
+        fs::read_to_string(root().join(FILE)).map_err(|e| format!("{FILE}: {e}; {WRITE}"))?;
+    let (mut faults, mut said) = (Vec::new(), Vec::new());
+    for (name, licence) in OTHERS {
+        if !text.contains(&other(name, licence)?) {
+            faults.push(format!("{name}: the licence is not that of {licence}"));
+        }
+    }
+    for product in PRODUCTS {
+        product.check(&text, &mut faults, &mut said)?;
+    }
+    if faults.is_empty() {
+        said.insert(0, format!("{FILE} is that of Cargo.lock"));
+        return Ok(said.join("\n"));
+    }
+    faults.sort();
+    faults.dedup();
+    Err(format!(
+        "{FILE} is not that of Cargo.lock; {WRITE}:\n{}",
+        faults.join("\n")
+    ))
 }
 
 impl Product {
@@ -96,44 +134,24 @@ impl Product {
         root().join(self.workspace)
     }
 
-    fn write(self) -> Result<String, String> {
-        let file = self.file;
-        let (mut linked, mut building) = (Packages::new(), Packages::new());
-        let mut sources = BTreeMap::new();
-        for (target, system) in PLATFORMS {
-            let of = |edges| self.packages(target, edges, Network::Allowed);
-            add(&mut linked, of(LINKED)?, system);
-            add(&mut building, of(BUILDING)?, system);
-            sources.extend(metadata(&self.folder(), target)?);
-        }
-        building.retain(|package, _| !linked.contains_key(package));
-        for package in linked.keys().chain(building.keys()) {
-            taken(&package.licence).map_err(|e| format!("{}: {e}", package.name))?;
-        }
-        let text = self.document(&linked, &building, &sources)?;
-        let summary = format!(
-            "{file}: {} crates linked, {} only for building",
-            linked.len(),
-            building.len()
-        );
-        fs::write(root().join(file), text).map_err(|e| format!("{file}: {e}"))?;
-        Ok(summary)
+    /// Whether a cell of the file names this product on a system.
+    fn is_named(self, cell: &str, system: &str) -> bool {
+        let on_system = format!("{} on {system}", self.name);
+        cell.split(", ")
+            .any(|on| on == self.name || on == on_system)
     }
 
-    fn check(self) -> Result<String, String> {
-        let file = self.file;
-        let text =
-            fs::read_to_string(root().join(file)).map_err(|e| format!("{file}: {e}; {WRITE}"))?;
-        let (mut faults, mut said) = (Vec::new(), Vec::new());
-        for (name, licence) in self.others {
-            if !text.contains(&other(name, licence)?) {
-                faults.push(format!("{name}: the licence is not that of {licence}"));
-            }
-        }
+    fn check(
+        self,
+        text: &str,
+        faults: &mut Vec<String>,
+        said: &mut Vec<String>,
+    ) -> Result<(), String> {
         let lock = fs::read_to_string(self.folder().join("Cargo.lock"))
             .map_err(|e| format!("Cargo.lock: {e}"))?;
         let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| ")).collect();
         let mut now: BTreeMap<&str, Result<BTreeSet<String>, ()>> = BTreeMap::new();
+        let mut missing = 0;
         for (target, system) in PLATFORMS {
             let of = |edges| self.packages(target, edges, Network::None);
             match of(LINKED).and_then(|linked| Ok((linked, of(BUILDING)?))) {
@@ -150,8 +168,10 @@ impl Product {
                 }
                 Err(_) => {
                     now.insert(system, Err(()));
+                    missing += 1;
                     said.push(format!(
-                        "{target} is not compared: its crates are not on this machine"
+                        "{} on {target} is not compared: its crates are not on this machine",
+                        self.name
                     ));
                 }
             }
@@ -160,13 +180,13 @@ impl Product {
             let written: BTreeSet<String> = rows
                 .iter()
                 .filter_map(|row| row.trim_end_matches(" |").rsplit_once(" | "))
-                .filter(|(_, on)| *on == "all" || on.split(", ").any(|on| on == system))
+                .filter(|(_, on)| self.is_named(on, system))
                 .map(|(cells, _)| cells.to_owned())
                 .collect();
             match known {
                 Ok(known) => {
                     let differ = written.symmetric_difference(&known);
-                    faults.extend(differ.map(|row| format!("{system}: {row}")));
+                    faults.extend(differ.map(|row| format!("{} on {system}: {row}", self.name)));
                 }
                 Err(()) => faults.extend(written.iter().filter_map(|row| {
                     let mut cells = row.trim_start_matches("| ").split(" | ");
@@ -177,19 +197,13 @@ impl Product {
                 })),
             }
         }
-        if said.len() == PLATFORMS.len() {
-            faults.push("no platform could be compared: build the command first".to_owned());
+        if missing == PLATFORMS.len() {
+            let name = self.name;
+            faults.push(format!(
+                "no platform of {name} could be compared: build it first"
+            ));
         }
-        if faults.is_empty() {
-            said.insert(0, format!("{file} is that of Cargo.lock"));
-            return Ok(said.join("\n"));
-        }
-        faults.sort();
-        faults.dedup();
-        Err(format!(
-            "{file} is not that of Cargo.lock; {WRITE}:\n{}",
-            faults.join("\n")
-        ))
+        Ok(())
     }
 
     /// The crates of others on which it depends on a platform, by edges of these kinds.
@@ -216,56 +230,65 @@ impl Product {
         let lines = said_by(&mut tree)?;
         Ok(lines.lines().filter_map(package).collect())
     }
+}
 
-    fn document(
-        self,
-        linked: &Packages,
-        building: &Packages,
-        sources: &BTreeMap<(String, String), Source>,
-    ) -> Result<String, String> {
-        let name = self.name;
-        let kind = name.split(" `").next().unwrap_or(name);
-        let systems: BTreeSet<&str> = PLATFORMS.iter().map(|(_, system)| *system).collect();
-        let table = |packages: &Packages| {
-            let mut rows = String::from(
-                "| crate | version | licence | source | on |\n| --- | --- | --- | --- | --- |\n",
-            );
-            for (package, on) in packages {
-                let names: Vec<&str> = on.iter().copied().collect();
-                let on = if names.len() == systems.len() {
-                    "all".to_owned()
-                } else {
-                    names.join(", ")
-                };
-                rows.push_str(&format!("{} | {on} |\n", package.cells()));
-            }
-            rows
-        };
-        let mut out = format!(
-            "# Licences of others\n\nWritten by `cargo xtask licences`; `.ci/run` compares it with `Cargo.lock`. \
-         The {name} itself is licensed under MIT or Apache-2.0.\n\n\
-         ## Linked into the {kind}\n\n{}\n## Used for building it alone\n\n{}",
-            table(linked),
-            table(building),
+/// The products and systems of a crate in words.
+fn told(on: &BTreeSet<(&'static str, &'static str)>) -> String {
+    let systems: BTreeSet<&str> = PLATFORMS.iter().map(|(_, system)| *system).collect();
+    let mut words = Vec::new();
+    for Product { name, .. } in PRODUCTS {
+        let own: Vec<&str> = on
+            .iter()
+            .filter(|(of, _)| *of == name)
+            .map(|on| on.1)
+            .collect();
+        if own.len() == systems.len() {
+            words.push(name.to_owned());
+        } else {
+            words.extend(own.iter().map(|system| format!("{name} on {system}")));
+        }
+    }
+    words.join(", ")
+}
+
+fn document(
+    linked: &Packages,
+    building: &Packages,
+    sources: &BTreeMap<(String, String), Source>,
+) -> Result<String, String> {
+    let table = |packages: &Packages| {
+        let mut rows = String::from(
+            "| crate | version | licence | source | in |\n| --- | --- | --- | --- | --- |\n",
         );
-        out.push_str(
+        for (package, on) in packages {
+            rows.push_str(&format!("{} | {} |\n", package.cells(), told(on)));
+        }
+        rows
+    };
+    let mut out = format!(
+        "# Licences of others\n\nWritten by `cargo xtask licences`; `.ci/run` compares it with `Cargo.lock`. \
+         The command `pfaff` and the Python package `pfaff` themselves are licensed under MIT or Apache-2.0.\n\n\
+         ## Linked\n\n{}\n## Used for building alone\n\n{}",
+        table(linked),
+        table(building),
+    );
+    out.push_str(
         "\n## Texts\n\nOf several licences that a crate offers, the first of these is taken:\n\n",
     );
-        for (name, reason) in spdx::ALLOWED {
-            out.push_str(&format!("- {name}: {reason}\n"));
-        }
-        for (text, crates) in texts(linked.keys(), sources)? {
-            // A fence that is longer than any in the text.
-            out.push_str(&format!(
-                "\n### {}\n\n````text\n{text}\n````\n",
-                crates.join("; ")
-            ));
-        }
-        for (name, licence) in self.others {
-            out.push_str(&other(name, licence)?);
-        }
-        Ok(out)
+    for (name, reason) in spdx::ALLOWED {
+        out.push_str(&format!("- {name}: {reason}\n"));
     }
+    for (text, crates) in texts(linked.keys(), sources)? {
+        // A fence that is longer than any in the text.
+        out.push_str(&format!(
+            "\n### {}\n\n````text\n{text}\n````\n",
+            crates.join("; ")
+        ));
+    }
+    for (name, licence) in OTHERS {
+        out.push_str(&other(name, licence)?);
+    }
+    Ok(out)
 }
 
 /// The licence of something that is no crate, as it stands in the file.
@@ -290,9 +313,9 @@ impl Package {
     }
 }
 
-fn add(all: &mut Packages, more: BTreeSet<Package>, system: &'static str) {
+fn add(all: &mut Packages, more: BTreeSet<Package>, on: (&'static str, &'static str)) {
     for package in more {
-        all.entry(package).or_default().insert(system);
+        all.entry(package).or_default().insert(on);
     }
 }
 
