@@ -180,6 +180,21 @@ fn every_module_says_what_it_is_for() {
 /// Largest width of a comment line (columns); tables, addresses and example code may be wider.
 const COLUMNS: usize = 100;
 
+/// Cargo does not strip a program whose package has settings of its own in the profile.
+#[test]
+fn the_program_is_stripped() {
+    let manifest = read("Cargo.toml");
+    let (_, release) = manifest
+        .split_once("[profile.release]\n")
+        .expect("a profile");
+    assert!(release.starts_with("strip = true\n"));
+    let packages = release.split("[profile.release.package]").nth(1);
+    let packages = packages
+        .and_then(|text| text.split("\n[").next())
+        .expect("levels of packages");
+    assert!(!packages.contains("pfaff-cli"), "{packages}");
+}
+
 #[test]
 fn comments_are_read_without_scrolling() {
     let mut files = Vec::new();
