@@ -12,7 +12,7 @@
 //! | `elaborate` | expressions of the language → scalars of the graph, with shapes checked |
 //! | `data` | the numbers that a constraint stores, and the derivatives with respect to them |
 //! | `identity` | is an expression zero for every pose? |
-//! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods and with respect to the data; laws → Q and its derivatives |
+//! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods; laws → Q and its derivatives |
 //! | `kernel` | a list of expressions → one function with its operation count |
 //! | `emit` | kernels and facts → the text of a module |
 //! | `names` | names of types as names of modules and of scene types |

@@ -50,8 +50,8 @@ pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S
     /// Adds the numbers that the programs take of this constraint to `out`.
     fn stored(&self, out: &mut Vec<f64>);
 
-    /// Tells the derivatives of these numbers by those of [`crate::Definition::data`] that are not zero:
-    /// index among the former, index among the latter, value.
+    /// Tells the derivatives of these numbers by those of [`crate::Definition::data`], without
+    /// zeros: index among the former, index among the latter, value.
     fn d_stored_dp(&self, entry: &mut dyn FnMut(usize, usize, f64));
 
     /// Entries of `∂(Cᵀλ)/∂x`, by the degrees of freedom of the slots.

@@ -1,5 +1,5 @@
-//! The rows of a constraint and its reaction: the kernels that are compiled in several number types.
-//! Slices are those of [`crate::constraint`].
+//! The rows of a constraint and its reaction: the kernels that are compiled in several number
+//! types. Slices are those of [`crate::constraint`].
 
 use crate::definition::Definition;
 use crate::ring::{Real, Scalar};
