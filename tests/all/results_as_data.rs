@@ -4,7 +4,7 @@
 use linalg::Matrix;
 use pfaff::model::Registry;
 use pfaff::{Overrides, Study};
-use serde_json::{Value, json, to_value};
+use serde_json::{json, to_value};
 
 /// A beam between two pins, which share the force along it as they like.
 const BEAM: &str = "
