@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+INTERRUPTED = "P0008"
+"""Code of a run that a callback or a signal has ended."""
+
 
 @dataclass(frozen=True)
 class Event:
@@ -255,7 +258,7 @@ class Run:
         end, also if it has stopped or a callback has ended it. The functions of its drives and
         bodies are called again.
         """
-        stopped = self.document["error"] is not None
+        stopped = self.document["code"] not in (None, INTERRUPTED)
         until = float(self.t[-1]) if self.partial and not stopped else None
         try:
             self.scene._page(path, self._options, until)
