@@ -233,9 +233,9 @@ impl Product {
 }
 
 /// The products and systems of a crate in words.
-fn told(on: &BTreeSet<(&'static str, &'static str)>) -> String {
+fn words(on: &BTreeSet<(&'static str, &'static str)>) -> String {
     let systems: BTreeSet<&str> = PLATFORMS.iter().map(|(_, system)| *system).collect();
-    let mut words = Vec::new();
+    let mut list = Vec::new();
     for Product { name, .. } in PRODUCTS {
         let own: Vec<&str> = on
             .iter()
@@ -243,12 +243,12 @@ fn told(on: &BTreeSet<(&'static str, &'static str)>) -> String {
             .map(|on| on.1)
             .collect();
         if own.len() == systems.len() {
-            words.push(name.to_owned());
+            list.push(name.to_owned());
         } else {
-            words.extend(own.iter().map(|system| format!("{name} on {system}")));
+            list.extend(own.iter().map(|system| format!("{name} on {system}")));
         }
     }
-    words.join(", ")
+    list.join(", ")
 }
 
 fn document(
@@ -261,7 +261,7 @@ fn document(
             "| crate | version | licence | source | in |\n| --- | --- | --- | --- | --- |\n",
         );
         for (package, on) in packages {
-            rows.push_str(&format!("{} | {} |\n", package.cells(), told(on)));
+            rows.push_str(&format!("{} | {} |\n", package.cells(), words(on)));
         }
         rows
     };

@@ -267,8 +267,7 @@ impl<T: Ring> Rows<'_, T> {
         x.iter()
             .for_each(|pose| S::numbers_of_pose(pose, &mut values));
         values.extend(f.iter().take(self.programs.jets).flatten());
-        v.iter()
-            .for_each(|twist| S::numbers_of_twist(twist, &mut values));
+        values.extend(v.iter().flat_map(S::velocities));
         program.run(values, out);
     }
 }
@@ -278,7 +277,7 @@ mod tests {
     use super::*;
     use crate::Magnitude;
 
-    /// y = x₀·x₁ − x₁ + 2, with a step that nobody needs.
+    /// y = x₀·x₁ − x₁ + 2, with a step that no output needs.
     fn program() -> Program {
         let (tape, (out, unwritten)) = record(|| {
             let [a, b] = [0, 1].map(Recorded::input);

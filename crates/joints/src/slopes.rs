@@ -99,10 +99,8 @@ impl Seeded {
         let (mut x, mut v) = (Vec::new(), Vec::new());
         at.x.iter()
             .for_each(|pose| S::numbers_of_pose(pose, &mut x));
-        let twists = at.v.unwrap_or_default();
-        twists
-            .iter()
-            .for_each(|twist| S::numbers_of_twist(twist, &mut v));
+        let twists = at.v.unwrap_or_default().iter();
+        v.extend(twists.flat_map(S::velocities));
         let dual = |numbers: Vec<f64>| numbers.into_iter().map(Dual::from).collect();
         Self {
             stored: dual(of.stored.clone()),
@@ -171,7 +169,7 @@ fn block<S: Space>(
     let mut factors = Vec::new();
     match kernel {
         Kernel::Force(lambda) => factors.extend_from_slice(lambda),
-        Kernel::Residual(a) => a.iter().for_each(|a| S::numbers_of_twist(a, &mut factors)),
+        Kernel::Residual(a) => factors.extend(a.iter().flat_map(S::velocities)),
         Kernel::Velocity => factors.extend(seeded.v.iter().map(|v| v.value)),
         Kernel::Gamma => {}
     }

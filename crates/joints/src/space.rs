@@ -35,8 +35,8 @@ pub trait Space: Copy + Debug + Send + Sync + 'static {
     /// The twist of these velocities.
     fn twist<T: Ring>(velocities: &[T]) -> Self::Twist<T>;
 
-    /// Adds the velocities of a twist to `out`.
-    fn numbers_of_twist<T: Ring>(twist: &Self::Twist<T>, out: &mut Vec<T>);
+    /// The velocities of a twist.
+    fn velocities<T: Ring>(twist: &Self::Twist<T>) -> impl Iterator<Item = T>;
 }
 
 /// The plane: bodies have three velocities.
@@ -85,8 +85,8 @@ impl Space for Plane {
         }
     }
 
-    fn numbers_of_twist<T: Ring>(twist: &plane::Twist<T>, out: &mut Vec<T>) {
-        out.extend([twist.x, twist.y, twist.omega]);
+    fn velocities<T: Ring>(twist: &plane::Twist<T>) -> impl Iterator<Item = T> {
+        [twist.x, twist.y, twist.omega].into_iter()
     }
 }
 
@@ -131,8 +131,7 @@ impl Space for Space3 {
         }
     }
 
-    fn numbers_of_twist<T: Ring>(twist: &space3::Twist<T>, out: &mut Vec<T>) {
-        out.extend(twist.v);
-        out.extend(twist.omega);
+    fn velocities<T: Ring>(twist: &space3::Twist<T>) -> impl Iterator<Item = T> {
+        twist.v.into_iter().chain(twist.omega)
     }
 }

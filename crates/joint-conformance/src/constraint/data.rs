@@ -1,6 +1,6 @@
 //! The numbers that a constraint stores: read and put back, and the derivatives by them. The
 //! references are differences through `set_data`, and dual numbers through the kernels, with the
-//! slopes that the constraint tells of its stored numbers.
+//! slopes that the constraint states of its stored numbers.
 
 use joints::spec::{DatumShape, Unit};
 

@@ -43,7 +43,7 @@ impl<S: BodySpace> Clone for Side<S> {
 pub(super) struct At<T> {
     /// The measure since the start.
     pub(super) measure: T,
-    /// The row of its drive: the measure, or what is left of it beside what is known.
+    /// The row of its drive: the measure, or what remains of it without what is known.
     left: T,
     /// Its gradient: the entries of the row of its drive.
     pub(super) gradient: [T; MOST],
@@ -128,7 +128,7 @@ impl<S: Kinematics> Side<S> {
     }
 
     /// Γ of the measure. A row of an angle that counts its turns is sin ε, ε what is left of the
-    /// angle beside what is known of it; its Γ has ε·rate², which that of the angle has not.
+    /// angle without what is known of it; its Γ has ε·rate², which that of the angle has not.
     pub(super) fn gamma<T: Evaluated>(
         &self,
         at: &At<T>,

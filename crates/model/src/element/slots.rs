@@ -21,8 +21,6 @@ pub(crate) trait Kinematics: BodySpace {
     fn poses_mut<T: Ring>(all: &mut Poses<T>) -> &mut [Self::Pose<T>];
     fn twists<T: Ring>(all: &Twists<T>) -> &[Self::Twist<T>];
     fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [Self::Twist<T>];
-    /// The velocities of a twist.
-    fn velocities<T: Ring>(twist: &Self::Twist<T>) -> impl Iterator<Item = T>;
     /// Sizes of the contributions of a pose to a polynomial.
     fn magnitude(pose: &Self::Pose<f64>) -> Self::Pose<Magnitude>;
     fn first_origin(poses: &[Self::Pose<f64>]) -> [f64; 3];
@@ -43,9 +41,6 @@ impl Kinematics for Plane {
     }
     fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [Twist<T>] {
         &mut all.plane
-    }
-    fn velocities<T: Ring>(twist: &Twist<T>) -> impl Iterator<Item = T> {
-        [twist.x, twist.y, twist.omega].into_iter()
     }
     /// Cosine and sine are accurate to the rounding of their angle.
     fn magnitude(pose: &Pose) -> Pose<Magnitude> {
@@ -78,9 +73,6 @@ impl Kinematics for Space3 {
     }
     fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [space3::Twist<T>] {
         &mut all.space3
-    }
-    fn velocities<T: Ring>(twist: &space3::Twist<T>) -> impl Iterator<Item = T> {
-        twist.v.into_iter().chain(twist.omega)
     }
     /// Every entry of a rotation is accurate to the rounding of 1.
     fn magnitude(pose: &space3::Pose) -> space3::Pose<Magnitude> {
