@@ -6,17 +6,19 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pfaff::configuration::KeptAnalysis;
-use pfaff::dynamics::linearise::LineariseOptions;
 use pfaff::import::{Axes, Base, FixedLinks, Folder, Options};
 use pfaff::memory::Budget;
 use pfaff::model::codes::Code;
 use pfaff::model::{Mechanism, Registry, System, Tolerance};
+use pfaff::question::Control;
+use pfaff::questions::Questions;
 use pfaff::refusal::{Refusal, json};
-use pfaff::report::documents::{EventDocument, LinearisationDocument};
+use pfaff::report::documents::EventDocument;
 use pfaff::report::{
     AnalysisDocument, Column as ReportColumn, Origin, OutputDirectory, ReactionColumn, Trajectory,
 };
 use pfaff::scene::{KeyError, Template};
+use pfaff::start::Start;
 use pfaff::study::EndedRun;
 use pfaff::{AssembledScene, Overrides, Study, StudyError, source};
 use pyo3::prelude::*;
@@ -33,7 +35,7 @@ pub(crate) static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standar
 /// A scene with its start.
 pub(crate) enum Judged {
     /// It can move.
-    Moves(Box<Study>),
+    Moves(Arc<Study>),
     /// It can only be judged at its start.
     Stands {
         assembled: Box<AssembledScene>,
@@ -118,7 +120,7 @@ impl Source {
             ..Overrides::default()
         };
         let error = match self.assembled(tolerance, budget)?.prepare(&overrides) {
-            Ok(study) => return Ok(Judged::Moves(Box::new(study))),
+            Ok(study) => return Ok(Judged::Moves(Arc::new(study))),
             Err(e) => e,
         };
         let Some(warning) = error.only_motion() else {
@@ -685,35 +687,23 @@ impl Scene {
         Ok((c, mass, gamma, force, b, phi))
     }
 
-    /// The document that `pfaff linearise --json` writes.
-    fn linearise(
-        &self,
-        py: Python<'_>,
-        t: f64,
-        coordinates: Vec<String>,
-        follow: Vec<String>,
-    ) -> PyResult<String> {
+    /// Asks a question by its name, with its options as a JSON object; returns the document.
+    fn ask(&self, py: Python<'_>, question: String, options: String) -> PyResult<String> {
         let own = Arc::clone(&self.0);
         heard(py, move |hearing| {
-            if !(t >= 0.0 && t.is_finite()) {
-                return Err(wrong(format!("t is {t}, need a time ≥ 0")));
-            }
-            let judged = own.start()?;
-            let study = judged.study()?;
-            let options = LineariseOptions {
-                coordinates,
-                follow,
+            let asked = Questions::read(&question, &options)?;
+            let budget = budget(None)?;
+            let start = Start::new(own.name.clone(), own.text.clone(), &REGISTRY, budget);
+            let start = match own.start()?.as_ref() {
+                Judged::Moves(study) => start.knowing(Arc::clone(study)),
+                Judged::Stands { .. } => start,
             };
-            let ends = || hearing.has_ended();
-            let found = study.linearise_until(t, &options, &ends);
-            let found = found.map_err(|e| own.fault(e))?;
-            let modes = found.modes();
-            let name = study.scene.name();
-            Ok(json(&LinearisationDocument::new(
-                name,
-                &found,
-                modes.as_deref(),
-            ))?)
+            let control = Control {
+                stop: &|| hearing.has_ended(),
+                ..Control::quiet()
+            };
+            let answer = asked.as_question().ask(&[start], &control)?;
+            Ok(answer.json()?)
         })
     }
 }

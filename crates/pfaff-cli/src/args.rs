@@ -19,6 +19,7 @@ pub(crate) use known::{Known, Settings, in_si};
 pub use values::named;
 use values::{chosen, joint_value, no_formulation};
 
+use crate::ask::Asked;
 use crate::input::rows_from_zero;
 use crate::output::{Answer, Failure};
 use crate::resources::{Memory, Resources};
@@ -60,12 +61,8 @@ pub(crate) enum Command {
     /// Read and assemble only: report every error of the file, with its place
     #[command(after_help = examples::CHECK)]
     Check(Check),
-    /// A start at rest: where forces balance near the described start
-    #[command(after_help = examples::EQUILIBRIUM)]
-    Equilibrium(Equilibrium),
-    /// Small motions about a state at rest or a steady one: matrices, eigenvalues, modes
-    #[command(after_help = examples::LINEARISE)]
-    Linearise(Linearise),
+    #[command(flatten)]
+    Ask(Asked),
     /// Create a scene from a template; without a name, list the templates
     #[command(after_help = examples::NEW)]
     New(New),
@@ -102,6 +99,7 @@ impl Command {
     /// The form of the answer: words or JSON.
     pub(crate) fn answer(&self) -> Answer {
         let json = match self {
+            Self::Ask(asked) => return asked.answer(),
             Self::Analyze(Analyze { json, .. })
             | Self::Simulate(Simulate { json, .. })
             | Self::Plan(Plan { json, .. })
@@ -109,8 +107,6 @@ impl Command {
             | Self::Tolerance(Tolerance { json, .. })
             | Self::WorkPrecision(WorkPrecision { json, .. })
             | Self::Check(Check { json, .. })
-            | Self::Equilibrium(Equilibrium { json, .. })
-            | Self::Linearise(Linearise { json, .. })
             | Self::New(New { json, .. })
             | Self::Import(Import { json, .. })
             | Self::View(View { json, .. })
@@ -385,63 +381,6 @@ pub(crate) struct Check {
     #[command(flatten)]
     pub(crate) resources: Resources,
     /// The errors, or a summary of the scene, as one JSON document on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Args)]
-pub(crate) struct Equilibrium {
-    /// Scene file, or - for standard input
-    pub(crate) scene: PathBuf,
-    /// Leave places that are not stable by a small push, and search on
-    #[arg(long)]
-    pub(crate) stable: bool,
-    /// Directory for a scene that starts there, at rest
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Also replace files there that pfaff has not written
-    #[arg(long, requires = "out")]
-    pub(crate) force: bool,
-    #[command(flatten)]
-    pub(crate) known: Known,
-    #[command(flatten)]
-    pub(crate) resources: Resources,
-    /// Place, stability and reactions as one JSON document on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Args)]
-pub(crate) struct Linearise {
-    /// Scene file, or - for standard input
-    pub(crate) scene: PathBuf,
-    /// Time of the motion at which it is linearised (s)
-    #[arg(
-        long,
-        value_name = "T",
-        default_value_t = 0.0,
-        allow_hyphen_values = true
-    )]
-    pub(crate) at_time: f64,
-    /// Independent coordinates to use, such as crank.angle or rod.x, in space also rod.rz; the
-    /// others are chosen
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    pub(crate) coordinates: Vec<String>,
-    /// Coordinates in which a steady motion goes on, such as frame.x,frame.y,frame.wz: they are
-    /// left out, and the axes turn with the latter
-    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-    pub(crate) follow: Vec<String>,
-    /// Directory for matrices and modes as tables, and pages on which the modes move
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Also replace files there that pfaff has not written
-    #[arg(long, requires = "out")]
-    pub(crate) force: bool,
-    #[command(flatten)]
-    pub(crate) known: Known,
-    #[command(flatten)]
-    pub(crate) resources: Resources,
-    /// Matrices, eigenvalues and modes as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use pfaff::model::{Registry, Tolerance};
 use pfaff::scene::{KeyError, Template, nearest};
 use pfaff::source;
+use pfaff::start::Start;
 use pfaff::{AssembledScene, Overrides, Study, StudyError};
 
 use crate::args::{Known, Settings};
@@ -49,6 +50,14 @@ impl<'r> Source<'r> {
         }
     }
 
+    /// The same as the subject of a question.
+    pub(crate) fn start(self, resources: Resources) -> Start<'r> {
+        let budget = resources.memory.budget();
+        let mut start = Start::new(self.name, self.text, self.registry, budget);
+        start.tolerance = self.tolerance;
+        start
+    }
+
     /// Reads and assembles the scene, if the limits of the machine allow it.
     pub(crate) fn study(
         &self,
@@ -68,7 +77,7 @@ impl<'r> Source<'r> {
         assembled: AssembledScene,
         overrides: &Overrides,
     ) -> Result<Study, StudyError> {
-        let _said = Stage::begin(self, "assembling and choosing rows");
+        let _said = Stage::begin(self.text.len(), "assembling and choosing rows");
         assembled.prepare(overrides)
     }
 

@@ -2,16 +2,15 @@
 
 mod analyze;
 mod args;
+mod ask;
 mod check;
 mod choice;
 pub mod console;
 mod diff;
-mod equilibrium;
 mod explain;
 mod import;
 pub mod input;
 pub mod interrupt;
-mod linearise;
 mod manual;
 mod new;
 pub mod output;
@@ -148,6 +147,7 @@ impl CommandLine for Arguments {
 
     fn run(&self, console: &Console<'_>) -> Outcome {
         match &self.command {
+            Command::Ask(a) => a.run(console),
             Command::Analyze(a) => analyze::run(a, console),
             Command::Simulate(a) => simulate::run(a, console),
             Command::Plan(a) => plan::run(a, console),
@@ -155,8 +155,6 @@ impl CommandLine for Arguments {
             Command::Tolerance(a) => tolerance::run(a, console),
             Command::WorkPrecision(a) => work_precision::run(a, console),
             Command::Check(a) => check::run(a, console),
-            Command::Linearise(a) => linearise::run(a, console),
-            Command::Equilibrium(a) => equilibrium::run(a, console),
             Command::New(a) => new::run(a, console),
             Command::Import(a) => import::run(a, console),
             Command::View(a) => view::run(a, console),

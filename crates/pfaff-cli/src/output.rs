@@ -12,6 +12,7 @@ use serde::Serialize;
 use crate::interrupt::{BY_REQUEST, Interrupt, NOTHING_WRITTEN};
 
 pub use pfaff::refusal::{Refusal, visible};
+pub use pfaff::words::{columns, count, wrapped};
 
 /// The form of an answer.
 #[derive(Clone, Copy)]
@@ -45,6 +46,12 @@ pub enum Failure {
     Closed,
     /// The computation stopped or was interrupted; its partial results have been written already.
     Incomplete,
+}
+
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        Refusal::from(error).into()
+    }
 }
 
 impl From<Refusal> for Failure {
@@ -114,9 +121,9 @@ impl Failure {
 /// If it is not a place for results.
 pub fn directory(path: &Path, family: Family, force: bool) -> Result<OutputDirectory, Failure> {
     let opened = OutputDirectory::create(path).and_then(OutputDirectory::exclusive);
-    let directory = opened.map_err(|e| unwritten(&e))?;
+    let directory = opened?;
     if !force {
-        directory.check_ours(family).map_err(|e| unwritten(&e))?;
+        directory.check_ours(family)?;
     }
     Ok(directory)
 }
@@ -146,9 +153,9 @@ impl Files {
     }
 
     /// Writes a file next to its place.
-    pub(crate) fn put(&mut self, name: impl AsRef<OsStr>, content: &[u8]) -> Outcome {
-        let mut file = self.directory.file(name).map_err(|e| unwritten(&e))?;
-        file.put(content).map_err(|e| unwritten(&e))?;
+    pub(crate) fn put(&mut self, name: impl AsRef<OsStr>, content: &[u8]) -> Result<(), FileError> {
+        let mut file = self.directory.file(name)?;
+        file.put(content)?;
         self.files.push(file);
         Ok(())
     }
@@ -160,7 +167,7 @@ impl Files {
             return Err(Failure::stopped(NOTHING_WRITTEN.to_owned()).coded(BY_REQUEST));
         }
         let finished = self.directory.finish(self.family, self.files);
-        finished.map_err(|e| unwritten(&e))?;
+        finished?;
         Ok(beside(&self.directory, self.family))
     }
 }
@@ -179,7 +186,7 @@ const SINGLE: Family = Family(&[]);
 
 /// Writes a single file next to its place, and renames it.
 pub(crate) fn write_file(path: &Path, content: &[u8], replaces: Replaces) -> Outcome {
-    let around = OutputDirectory::around(path, replaces).map_err(|e| unwritten(&e))?;
+    let around = OutputDirectory::around(path, replaces)?;
     let mut files = Files::of(&around, SINGLE)?;
     files.put(path.file_name().unwrap_or_default(), content)?;
     files.finish().map(drop)
@@ -200,16 +207,6 @@ pub(crate) fn beside(directory: &OutputDirectory, family: Family) -> String {
         "",
         &format!("also there, from other commands: {}", named.join(", ")),
     )
-}
-
-/// A file that was not written: because of its place, or because writing failed.
-pub fn unwritten(error: &FileError) -> Failure {
-    let failure = if error.is_place() {
-        Failure::input(error.to_string())
-    } else {
-        Failure::stopped(error.to_string())
-    };
-    failure.coded(error.code())
 }
 
 /// A document as text.
@@ -262,60 +259,4 @@ pub(crate) fn json_or(
         Some(shortfall) => shortfall.json(document),
         None => json(document),
     }
-}
-
-/// A number with its noun, as `1 body` or `7 bodies`.
-pub fn count(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
-}
-
-/// Width of texts for people (characters).
-const WIDTH: usize = 100;
-
-/// Breaks a text into lines of at most 100 characters, if its words are short enough; the first
-/// line begins with `lead`, the others are indented by its width.
-pub fn wrapped(lead: &str, text: &str) -> String {
-    let indent = " ".repeat(lead.chars().count());
-    let (mut out, mut line) = (String::new(), lead.to_owned());
-    let mut is_empty = true;
-    for word in text.split_whitespace() {
-        let width = line.chars().count() + word.chars().count();
-        if !is_empty && width >= WIDTH {
-            out.push_str(line.trim_end());
-            out.push('\n');
-            line.clone_from(&indent);
-            is_empty = true;
-        }
-        if !is_empty {
-            line.push(' ');
-        }
-        line.push_str(word);
-        is_empty = false;
-    }
-    out.push_str(line.trim_end());
-    out.push('\n');
-    out
-}
-
-/// Aligns lines of cells in columns; the first line is the header.
-pub fn columns(rows: &[Vec<String>]) -> String {
-    let n = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |k: usize| {
-        rows.iter()
-            .filter_map(|r| r.get(k))
-            .map(|c| c.chars().count())
-            .max()
-    };
-    let widths: Vec<usize> = (0..n).map(|k| width(k).unwrap_or(0)).collect();
-    let mut out = String::new();
-    for row in rows {
-        let cells: Vec<String> = row
-            .iter()
-            .zip(&widths)
-            .map(|(cell, &w)| format!("{cell:<w$}"))
-            .collect();
-        out.push_str(cells.join("  ").trim_end());
-        out.push('\n');
-    }
-    out
 }

@@ -50,7 +50,7 @@ impl Resources {
     /// Reads the scene and builds its mechanism, if the memory suffices for the mechanism and its
     /// verdicts.
     pub(crate) fn assembled(self, source: &Source) -> Result<AssembledScene, Failure> {
-        let _said = Stage::begin(source, "reading and building");
+        let _said = Stage::begin(source.text.len(), "reading and building");
         let of = (source.name.as_str(), source.text.as_str());
         Ok(self
             .memory
@@ -70,7 +70,7 @@ impl Memory {
         Ok(self.budget().allow(bytes, what)?)
     }
 
-    fn budget(self) -> Budget {
+    pub(crate) fn budget(self) -> Budget {
         Budget {
             limit: self.max_memory,
             option: "--max-memory",
@@ -86,8 +86,7 @@ const LONG: usize = 1 << 20;
 pub(crate) struct Stage(Option<ProgressBar>);
 
 impl Stage {
-    pub(crate) fn begin(source: &Source, what: &str) -> Self {
-        let size = source.text.len();
+    pub(crate) fn begin(size: usize, what: &str) -> Self {
         Self((size >= LONG).then(|| {
             let bar = ProgressBar::new_spinner();
             if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {

@@ -16,7 +16,7 @@ use crate::args;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, Shortfall, beside, count, json_or, unwritten, wrapped};
+use crate::output::{Failure, Outcome, Shortfall, beside, count, json_or, wrapped};
 use crate::resources::start_threads;
 use crate::simulate::TRUSTED_BALANCE;
 
@@ -84,11 +84,11 @@ fn shortfall(d: &SweepDocument, ending: Ending) -> Option<Shortfall> {
 
 /// Refuses a directory in which tables of somebody else would be replaced.
 fn check_place(arguments: &args::Sweep) -> Outcome {
-    let place = OutputDirectory::create(&arguments.place.out).map_err(|e| unwritten(&e))?;
+    let place = OutputDirectory::create(&arguments.place.out)?;
     if arguments.place.force {
         return Ok(());
     }
-    place.check_ours(FAMILY).map_err(|e| unwritten(&e))
+    Ok(place.check_ours(FAMILY)?)
 }
 
 /// How a sweep ended.

@@ -14,7 +14,7 @@ use crate::args::View;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, count, unwritten, write_file};
+use crate::output::{Failure, Outcome, count, write_file};
 use crate::picture::{can_paint, missing, unpainted};
 use crate::simulate::origin;
 use crate::start::Start;
@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
         Replaces::Ours
     };
     // Before anything is computed, too.
-    OutputDirectory::around(&path, replaces).map_err(|e| unwritten(&e))?;
+    OutputDirectory::around(&path, replaces)?;
     arguments.resources.apply(console);
     let start = Start::of(&source, arguments.resources)?;
     let (mut pixels, mut boxes) = (None, String::new());

@@ -15,7 +15,7 @@ use crate::args::{Settings, WorkPrecision};
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, Shortfall, beside, directory, json_or, unwritten, wrapped};
+use crate::output::{Failure, Outcome, Shortfall, beside, directory, json_or, wrapped};
 use crate::picture::{can_paint, unpainted};
 use crate::resources::{Resources, start_threads};
 
@@ -99,7 +99,7 @@ impl Request<'_> {
             can_paint(None)?;
         }
         let directory = directory(self.out, FAMILY, self.force)?;
-        let file = directory.file(TABLE).map_err(|e| unwritten(&e))?;
+        let file = directory.file(TABLE)?;
         let mut table = WorkPrecisionTable::new(file).map_err(|e| unfinished(&e))?;
         let mut rows = 0;
         let compared = self.compare(&directory, (&mut table, &mut rows));
@@ -110,7 +110,7 @@ impl Request<'_> {
                 Ok(document) if !document.partial => file.finish(),
                 _ => file.finish_partial(),
             };
-            finished.map_err(|e| unwritten(&e))?;
+            finished?;
         }
         let document = compared?;
         let figure = figures::work_precision(&document.scenes);
@@ -125,10 +125,10 @@ impl Request<'_> {
         }
         let mut kept = vec![TABLE];
         for (name, content) in &pages {
-            directory.write(name, content).map_err(|e| unwritten(&e))?;
+            directory.write(name, content)?;
             kept.push(name);
         }
-        directory.keep(FAMILY, &kept).map_err(|e| unwritten(&e))?;
+        directory.keep(FAMILY, &kept)?;
         let shortfall = document.partial.then(|| {
             let (made, all) = (document.scenes.len(), self.subjects.len());
             Shortfall::interrupted(format!("interrupted in scene {made} of {all}"))

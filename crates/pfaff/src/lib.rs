@@ -7,6 +7,9 @@
 //!
 //! | module | content |
 //! | --- | --- |
+//! | [`question`], [`questions`] | what a question is, and all of them: options, answers, words |
+//! | [`mod@start`] | the scene that a question is asked about |
+//! | [`words`] | sentences and tables, laid out as text |
 //! | [`prelude`] | the names that a program needs most often |
 //! | [`assembled`] | a scene with its mechanism |
 //! | [`study`] | its consistent start, its motion, its files |
@@ -21,7 +24,7 @@
 //! | [`memory`], `workers` | estimated memory; threads |
 //! | [`forked`] | parallel work in a process that was forked |
 //! | [`error`] | reasons why there are no results |
-//! | `refusal`, `source` (feature `messages`) | these reasons in words for people; texts of files |
+//! | [`refusal`], [`source`] | these reasons in words for people (feature `messages`) and as documents; texts of files |
 
 pub mod along_motion;
 pub mod assembled;
@@ -32,18 +35,20 @@ pub mod error;
 pub mod forked;
 pub mod memory;
 pub mod prelude;
-#[cfg(feature = "messages")]
+pub mod question;
+pub mod questions;
 pub mod refusal;
 mod report_builder;
 pub mod rows;
-#[cfg(feature = "messages")]
 pub mod source;
 mod spread;
+pub mod start;
 pub mod study;
 pub mod sweep;
 mod tables_of_run;
 pub mod tolerance;
 mod within;
+pub mod words;
 pub mod work_precision;
 mod workers;
 

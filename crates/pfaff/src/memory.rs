@@ -2,9 +2,8 @@
 //! patterns only: right to a fifth for scenes of many bodies (`resources.rs` in the tests of the
 //! command measures it).
 
-#[cfg(feature = "messages")]
 mod budget;
-#[cfg(all(feature = "messages", target_os = "linux"))]
+#[cfg(target_os = "linux")]
 mod linux;
 
 use solvability::memory_of_verdicts;
@@ -14,7 +13,6 @@ use crate::error::StudyError;
 use crate::study::Study;
 use model::System;
 
-#[cfg(feature = "messages")]
 pub use budget::{Budget, Bytes};
 
 /// Bytes for each byte of a scene: its text and its tables with their places.

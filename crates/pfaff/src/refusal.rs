@@ -1,13 +1,15 @@
 //! Why there is no answer, as the command and other programs for people say it: in words, with the
 //! lines of a scene at fault, or as one document.
 
+#[cfg(feature = "messages")]
+mod render;
+
 use std::borrow::Cow;
 
-use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, Source};
 use model::codes::Code;
 use report::documents::RefusalDocument;
-use report::write_json;
-use scene::{Diagnostic, Severity};
+use report::{FileError, TableError, write_json};
+use scene::Diagnostic;
 use serde::Serialize;
 
 use crate::error::StudyError;
@@ -53,7 +55,7 @@ impl Refusal {
     /// let text = "[scene]\nname = \"stone\"\nspace = \"plane\"\n[[body]]\nname = \"stone\"\nmas = 1.0\ninertia = 1.0\n";
     /// let error = Study::read("stone.toml", text, &Registry::standard(), &Default::default());
     /// let refusal = Refusal::of(("stone.toml", text), error.err().unwrap());
-    /// assert!(refusal.words(false).contains("stone.toml:6:1"));
+    /// assert!(refusal.document().error.contains("stone.toml:6:1"), "{:?}", refusal.document().error);
     /// ```
     #[must_use]
     pub fn of((name, text): (&str, &str), error: StudyError) -> Self {
@@ -103,6 +105,7 @@ impl Refusal {
     }
 
     /// The refusal in words, with colours for a terminal or without.
+    #[cfg(feature = "messages")]
     #[must_use]
     pub fn words(&self, color: bool) -> String {
         match self {
@@ -110,7 +113,7 @@ impl Refusal {
                 name,
                 text,
                 diagnostics,
-            } => render(&visible(name), &visible(text), diagnostics, color),
+            } => render::render(&visible(name), &visible(text), diagnostics, color),
             Self::Input(code, message) | Self::Stopped(code, message) => {
                 format!("error[{code}]: {}\n", visible(message))
             }
@@ -142,6 +145,24 @@ impl From<import::Refusal> for Refusal {
             text: refusal.text,
             diagnostics: refusal.diagnostics,
         }
+    }
+}
+
+impl From<FileError> for Refusal {
+    /// A file that was not written: because of its place, or because writing failed.
+    fn from(error: FileError) -> Self {
+        let refusal = if error.is_place() {
+            Self::input(error.to_string())
+        } else {
+            Self::stopped(error.to_string())
+        };
+        refusal.coded(error.code())
+    }
+}
+
+impl From<TableError> for Refusal {
+    fn from(error: TableError) -> Self {
+        Self::stopped(error.to_string()).coded(error.code())
     }
 }
 
@@ -184,118 +205,4 @@ pub fn visible(text: &str) -> Cow<'_, str> {
         (true, _) => '\u{fffd}',
     };
     Cow::Owned(text.chars().map(shown).collect())
-}
-
-/// Largest number of problems that are shown; the others are counted.
-const SHOWN: usize = 50;
-
-/// Problems of a scene with its lines and carets.
-fn render(name: &str, text: &str, diagnostics: &[Diagnostic], color: bool) -> String {
-    let mut out = Vec::new();
-    // The positions of the lines are computed once for all problems.
-    let mut source = (name, Source::from(text));
-    for d in &diagnostics[..diagnostics.len().min(SHOWN)] {
-        let labels = || std::iter::once(&d.primary).chain(&d.secondary);
-        if labels().any(|label| line_around(text, label.span.start).len() > WIDEST) {
-            out.extend(narrow(text, d).bytes());
-            continue;
-        }
-        let (word, tint) = match d.severity {
-            Severity::Warning => ("warning", Color::Yellow),
-            Severity::Note => ("note", Color::Blue),
-            _ => ("error", Color::Red),
-        };
-        let kind = format!("{word}[{}]", d.code);
-        let kind = ReportKind::Custom(&kind, tint);
-        let config = Config::default()
-            .with_color(color)
-            .with_index_type(IndexType::Byte);
-        let mut report = Report::build(kind, (name, d.primary.span.clone()))
-            .with_config(config)
-            .with_message(visible(&d.message))
-            .with_label(label(name, &d.primary).with_color(tint));
-        for other in &d.secondary {
-            report = report.with_label(label(name, other).with_color(Color::Blue));
-        }
-        if let Some(help) = &d.help {
-            report = report.with_help(visible(help));
-        }
-        let written = report.finish().write(&mut source, &mut out);
-        if written.is_err() {
-            out.extend(format!("{}\n", visible(&d.to_string())).bytes());
-        }
-    }
-    let mut rendered = String::from_utf8_lossy(&out).into_owned();
-    if !color {
-        rendered = uncoloured(&rendered);
-    }
-    // If some problems are not listed, the last one states how many.
-    let is_listed = diagnostics.iter().all(|d| d.severity != Severity::Note);
-    if diagnostics.len() > SHOWN {
-        // The last one may be the number of more.
-        let (more, listed) = if is_listed {
-            ("", diagnostics.len())
-        } else {
-            ("more than ", diagnostics.len() - 1)
-        };
-        rendered.push_str(&format!(
-            "the first {SHOWN} of {more}{listed} problems in `{name}`; `--json` lists more\n"
-        ));
-    } else if diagnostics.len() > 1 && is_listed {
-        rendered.push_str(&format!("{} problems in `{name}`\n", diagnostics.len()));
-    }
-    rendered
-}
-
-/// A text without codes of colours: kinds with a code of their own are coloured in any case.
-fn uncoloured(text: &str) -> String {
-    let mut pieces = text.split('\u{1b}');
-    let first = pieces.next().unwrap_or_default().to_owned();
-    pieces.fold(first, |all, piece| {
-        all + piece.split_once('m').map_or(piece, |(_, rest)| rest)
-    })
-}
-
-/// Length of the longest line (bytes) that is shown completely.
-const WIDEST: usize = 2000;
-
-/// Bytes of a longer line that are shown on each side of a place.
-const AROUND: usize = 40;
-
-/// The line that contains a place.
-fn line_around(text: &str, at: usize) -> &str {
-    let at = text.floor_char_boundary(at);
-    let (before, after) = text.split_at(at);
-    let begin = before.rfind('\n').map_or(0, |k| k + 1);
-    let end = after.find('\n').map_or(text.len(), |k| at + k);
-    &text[begin..end]
-}
-
-/// Shows a problem in a line that is too long to be shown completely.
-fn narrow(text: &str, d: &Diagnostic) -> String {
-    let mut out = format!("{d}\n");
-    for label in std::iter::once(&d.primary).chain(&d.secondary) {
-        let begin = text.floor_char_boundary(label.span.start.saturating_sub(AROUND));
-        let end = text.ceil_char_boundary(label.span.start.saturating_add(AROUND));
-        let excerpt = text.get(begin..end).unwrap_or_default();
-        let (line, column) = (label.line, label.column);
-        let excerpt = excerpt.escape_debug();
-        out.push_str(&format!(
-            "  line {line}, column {column}: … {excerpt} …  {}\n",
-            label.text
-        ));
-    }
-    if let Some(help) = &d.help {
-        out.push_str(&format!("  help: {help}\n"));
-    }
-    out
-}
-
-fn label<'a>(name: &'a str, l: &scene::Label) -> Label<(&'a str, std::ops::Range<usize>)> {
-    let label = Label::new((name, l.span.clone()));
-    if l.text.is_empty() {
-        label
-    } else {
-        label.with_message(visible(&l.text))
-    }
 }

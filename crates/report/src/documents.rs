@@ -4,10 +4,8 @@
 
 mod analysis;
 mod answers;
-mod equilibrium;
 mod freedoms;
 mod impulses;
-mod linearise;
 mod misfits;
 mod motion;
 mod plan;
@@ -21,6 +19,7 @@ mod verdicts;
 use std::io::{self, Write};
 
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde::ser::{SerializeMap, Serializer};
 use solvability::{Judgement, Verdict};
 
@@ -38,12 +37,8 @@ pub use answers::{
     DiffReaction, DiffSide, EndedDocument, ImportDocument, NewDocument, OmissionDocument,
     RefusalDocument, TemplateDocument, TemplatesDocument, ViewDocument,
 };
-pub use equilibrium::{EquilibriumDocument, ReactionAtRestDocument, RestingBodyDocument};
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
 pub use impulses::ImpulseDocument;
-pub use linearise::{
-    InputDocument, LinearisationDocument, ModeDocument, SecondOrderDocument, StateDocument,
-};
 pub use misfits::{MisfitDocument, SpreadDocument};
 pub use motion::{MomentDocument, MotionDocument};
 pub use plan::{DecisionDocument, PlanDocument, PlannedComponentDocument, SavingDocument};
@@ -97,6 +92,14 @@ pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<
     }
     writeln!(out, "{}", &text[written..])?;
     out.flush()
+}
+
+/// Reads what somebody asks for from JSON.
+///
+/// # Errors
+/// What is wrong, with its place.
+pub fn read_json<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+    serde_json::from_str(text).map_err(|e| e.to_string())
 }
 
 /// A part of a document as text, without a head and in one line, for programs that take documents

@@ -27,7 +27,9 @@ pub mod tables;
 pub mod tolerance;
 pub mod work_precision;
 
-pub use documents::{AnalysisDocument, Ending, PlanDocument, Run, RunDocument, write_json};
+pub use documents::{
+    AnalysisDocument, Ending, PlanDocument, Run, RunDocument, read_json, write_json,
+};
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Png, PngError, Series, Style};
 pub use files::{Family, FileError, OutputDirectory, OutputFile, PROVENANCE, Replaces, is_ours};
 pub use html::{
@@ -38,9 +40,9 @@ pub use peaks::{Peak, PeakRecorder};
 pub use recording::{Frame, Recording};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
 pub use tables::{
-    Column, MatrixTable, Quantity, ReactionColumn, ReactionTable, Selection, TableError,
-    Trajectory, TrajectoryTable, columns_of_reactions, modes_table, reaction_columns,
-    tolerance_table, write_chosen, write_determined,
+    Column, Quantity, ReactionColumn, ReactionTable, Selection, Table, TableError, Trajectory,
+    TrajectoryTable, columns_of_reactions, reaction_columns, tolerance_table, write_chosen,
+    write_determined,
 };
 pub use tolerance::tolerance_page;
 pub use work_precision::{

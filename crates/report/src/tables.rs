@@ -3,7 +3,6 @@
 //!
 //! The times and the destination of rows are chosen by the caller.
 
-mod linearise;
 mod reactions;
 #[cfg(test)]
 mod tests;
@@ -15,7 +14,6 @@ use std::io::{self, BufWriter, Write};
 
 use serde::Serialize;
 
-pub use linearise::{MatrixTable, modes_table};
 pub use reactions::{
     Quantity, ReactionColumn, ReactionTable, Selection, columns_of_reactions, reaction_columns,
     write_chosen, write_determined,

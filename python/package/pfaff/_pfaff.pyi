@@ -107,6 +107,10 @@ class Scene:
         """
         Analyses a configuration.
         """
+    def ask(self, /, question: str, options: str) -> str:
+        """
+        Asks a question by its name, with its options as a JSON object; returns the document.
+        """
     def check(self, /, max_memory: SupportsIndex | str | None) -> None:
         """
         Reads and assembles the scene; raises what is wrong with it.
@@ -121,10 +125,6 @@ class Scene:
         """
         Makes a scene of a model of a robot. Returns it, and what it says of itself: remarks, and
         what is left out as pairs of kind and subject.
-        """
-    def linearise(self, /, t: SupportsFloat | SupportsIndex, coordinates: SupportsGetItem[int, str], follow: SupportsGetItem[int, str]) -> str:
-        """
-        The document that `pfaff linearise --json` writes.
         """
     def matrices(self, /, q: SupportsGetItem[int, SupportsFloat | SupportsIndex] | None, v: SupportsGetItem[int, SupportsFloat | SupportsIndex] | None, t: SupportsFloat | SupportsIndex, max_memory: SupportsIndex | str | None) -> tuple[Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete]:
         """

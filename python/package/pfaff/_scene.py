@@ -431,9 +431,25 @@ class Scene:
         self, t: float = 0.0, *, coordinates: Iterable[str] = (), follow: Iterable[str] = ()
     ) -> Linearisation:
         """Small motions about a state at rest or a steady one, as ``pfaff linearise``."""
-        time = arguments.number("t", t, "a time (s)")
-        own = arguments.texts("coordinates", coordinates)
-        return Linearisation(self._of.linearise(time, own, arguments.texts("follow", follow)))
+        options = {
+            "at_time": arguments.number("t", t, "a time (s)"),
+            "coordinates": arguments.texts("coordinates", coordinates),
+            "follow": arguments.texts("follow", follow),
+        }
+        return Linearisation(self._ask("linearise", options))
+
+    def equilibrium(self, *, stable: bool = False) -> dict[str, Any]:
+        """A start at rest: where forces balance near the described start.
+
+        The document of ``pfaff equilibrium --json``: places, stability, and reactions, each a value
+        with its verdict. ``stable`` leaves places that are not stable by a small push, and searches
+        on.
+        """
+        document: dict[str, Any] = json.loads(self._ask("equilibrium", {"stable": bool(stable)}))
+        return document
+
+    def _ask(self, question: str, options: Mapping[str, Any]) -> str:
+        return self._of.ask(question, json.dumps(options))
 
     def tolerance(
         self,

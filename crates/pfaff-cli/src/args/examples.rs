@@ -50,23 +50,6 @@ pub(super) const CHECK: &str = "Examples:
   pfaff check robot-trolley.toml --watch    again whenever the file is saved; Ctrl-C ends it
   pfaff check - --json < robot-trolley.toml";
 
-pub(super) const EQUILIBRIUM: &str = "Examples:
-  pfaff equilibrium crane.toml                    how far each body moves, whether it is stable, reactions
-  pfaff equilibrium crane.toml --out rest         rest/at-rest.toml: the same scene, starting at rest
-  pfaff equilibrium tower.toml --stable           leave a place that is not stable
-  pfaff equilibrium crane.toml --set hook.mass=80 --json
-
-Drives are held as at the start; functions of time are taken at t = 0.";
-
-pub(super) const LINEARISE: &str = "Examples:
-  pfaff linearise crane.toml                               eigenvalues, frequencies, damping ratios
-  pfaff linearise crane.toml --out modes                   A, B, M, D, K as tables; every mode as a page that moves
-  pfaff linearise crane.toml --coordinates boom.angle,hook.x
-  pfaff linearise bicycle.toml --follow frame.x,frame.y    a steady motion; its place does not matter
-  pfaff linearise crane.toml --at-time 20 --json
-
-The state has to be at rest where forces balance, or steady.";
-
 pub(super) const SCHEMA: &str = "Examples:
   pfaff schema > pfaff.schema.json
 

@@ -6,12 +6,6 @@ use serde_json::{Value, json};
 use super::bad_input::PENDULUM;
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
-/// The analysis of the published mechanism, checked by reading; `PFAFF_BLESS=1` rewrites it.
-const GOLDEN: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/tests/contract/robot-trolley.txt"
-);
-
 /// A beam of 2 m on hinges, both of which hold it along its axis; loaded by its weight and a force
 /// of 6 N along its axis.
 const BEAM: &str = r#"
@@ -89,19 +83,6 @@ pub(super) fn contains(text: &str, pieces: &[&str]) {
     for piece in pieces {
         assert!(flat.contains(piece), "`{piece}` is not in:\n{text}");
     }
-}
-
-#[test]
-fn the_text_of_the_published_mechanism_is_the_reviewed_one() {
-    let output = pfaff(&["analyze", ROBOT]);
-    assert_eq!(output.status.code(), Some(0), "{output:?}");
-    let text = stdout(&output);
-    if std::env::var_os("PFAFF_BLESS").is_some() {
-        std::fs::write(GOLDEN, &text).expect("writable");
-    }
-    let golden = std::fs::read_to_string(GOLDEN).expect("the reviewed text");
-    assert!(text == golden, "found:\n{text}\nreviewed:\n{golden}");
-    assert!(text.lines().all(|line| line.chars().count() <= 100));
 }
 
 #[test]

@@ -38,6 +38,7 @@ mod refusals;
 mod report;
 mod resources;
 mod schema;
+mod sessions;
 mod singular;
 mod sizes;
 mod space;
@@ -47,7 +48,6 @@ mod tolerance_samples;
 mod view;
 mod watch;
 mod work_precision;
-mod wrong;
 
 use std::io::{ErrorKind, Write};
 use std::process::{Command, Output, Stdio};

@@ -1,0 +1,231 @@
+//! What a question about scenes is: options, a subject, and an answer that is a document, words and
+//! files. Each question is one folder of [`crate::questions`]; whoever asks (the command, Python)
+//! knows none by name.
+
+use std::sync::LazyLock;
+
+use model::codes::Code;
+use report::{Family, FileError, Origin};
+use serde::{Deserialize, Serialize};
+
+use crate::refusal::{Refusal, json};
+use crate::start::Start;
+use crate::words::Block;
+
+/// A question; its fields are the options. Their comments are the help of the command, too.
+pub trait Question: for<'d> Deserialize<'d> + Default {
+    /// Subcommand and method of Python.
+    const NAME: &'static str;
+    /// The files of an answer; `None` if it has none.
+    const OUTPUT: Option<Output> = None;
+    /// What it is asked about.
+    type Subject<'s>: Subject<'s>;
+    /// What comes back.
+    type Answer: Answer;
+
+    /// Answers it.
+    ///
+    /// # Errors
+    /// Why there is no answer.
+    fn answer(
+        &self,
+        of: &Self::Subject<'_>,
+        control: &Control<'_>,
+    ) -> Result<Self::Answer, Refusal>;
+}
+
+/// What a question is asked about: one scene or several.
+pub trait Subject<'s>: Sized {
+    /// Names of the scenes in help texts.
+    const SCENES: &'static [&'static str];
+
+    /// The subject that consists of these scenes; `None` if it has another number of them.
+    fn of<'a>(scenes: &'a [Start<'s>]) -> Option<&'a Self>;
+}
+
+impl<'s> Subject<'s> for Start<'s> {
+    const SCENES: &'static [&'static str] = &["SCENE"];
+
+    fn of<'a>(scenes: &'a [Start<'s>]) -> Option<&'a Self> {
+        let [scene] = scenes else { return None };
+        Some(scene)
+    }
+}
+
+impl<'s> Subject<'s> for [Start<'s>; 2] {
+    const SCENES: &'static [&'static str] = &["A", "B"];
+
+    fn of<'a>(scenes: &'a [Start<'s>]) -> Option<&'a Self> {
+        scenes.try_into().ok()
+    }
+}
+
+/// An answer. It owns all that its words and files need, so that it can leave the thread and the
+/// scene. As a document its fields are the keys, in their order.
+pub trait Answer: Serialize + Send + 'static {
+    /// The answer for people.
+    fn words(&self) -> Vec<Block>;
+
+    /// Whether it is whole.
+    fn ending(&self) -> Ending {
+        Ending::Complete
+    }
+
+    /// Writes its files, if it has any.
+    ///
+    /// # Errors
+    /// If one of them cannot be written.
+    fn files(&self, _place: &mut dyn Place) -> Result<(), Refusal> {
+        Ok(())
+    }
+}
+
+/// Whether an answer is whole.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// It is.
+    Complete,
+    /// It is a part: why.
+    Partial {
+        /// The code of the reason.
+        code: Code,
+        /// The reason.
+        error: String,
+    },
+}
+
+/// The files of an answer.
+#[derive(Clone, Copy, Debug)]
+pub struct Output {
+    /// Their names.
+    pub family: Family,
+    /// What they contain, after "Directory for".
+    pub contents: &'static str,
+}
+
+/// Where the files of an answer are put: a directory, or memory.
+pub trait Place {
+    /// Puts a whole file there.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    fn put(&mut self, name: &str, content: &[u8]) -> Result<(), FileError>;
+}
+
+/// How whoever asks accompanies the work on an answer.
+#[derive(Clone, Copy)]
+pub struct Control<'c> {
+    /// Whether the work should end before it is done. It is asked often.
+    pub stop: &'c (dyn Fn() -> bool + Sync),
+    /// Hears what is done at present.
+    pub progress: &'c (dyn Fn(Progress) + Sync),
+    /// Whether the files of the answer are wanted, too.
+    pub wants_files: bool,
+    /// Who asks: named on pages.
+    pub origin: &'c Origin,
+}
+
+/// Whoever does not say.
+static UNNAMED: LazyLock<Origin> = LazyLock::new(Origin::default);
+
+impl Control<'static> {
+    /// Nobody stops the work, hears of it, or wants files.
+    #[must_use]
+    pub fn quiet() -> Self {
+        Self {
+            stop: &|| false,
+            progress: &|_| (),
+            wants_files: false,
+            origin: &UNNAMED,
+        }
+    }
+}
+
+/// What is done at present.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Progress {
+    /// Work on a text of so many bytes, in words.
+    Stage(&'static str, usize),
+}
+
+/// A question whose type is known when it is asked.
+pub trait AnyQuestion {
+    /// Answers it about these scenes.
+    ///
+    /// # Errors
+    /// Why there is no answer.
+    fn ask(
+        &self,
+        scenes: &[Start<'_>],
+        control: &Control<'_>,
+    ) -> Result<Box<dyn AnyAnswer>, Refusal>;
+}
+
+impl<Q: Question> AnyQuestion for Q {
+    fn ask(
+        &self,
+        scenes: &[Start<'_>],
+        control: &Control<'_>,
+    ) -> Result<Box<dyn AnyAnswer>, Refusal> {
+        let n = scenes.len();
+        let names = Q::Subject::SCENES;
+        let subject = Q::Subject::of(scenes).ok_or_else(|| {
+            let (name, expected) = (Q::NAME, names.len());
+            Refusal::input(format!("`{name}` asks about {expected} scene(s), not {n}"))
+        })?;
+        Ok(Box::new(self.answer(subject, control)?))
+    }
+}
+
+/// An answer of any type.
+pub trait AnyAnswer: Send {
+    /// As [`Answer::words`].
+    fn words(&self) -> Vec<Block>;
+
+    /// As [`Answer::ending`].
+    fn ending(&self) -> Ending;
+
+    /// The document as text; `code` and `error` come first in one that is not whole.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    fn json(&self) -> Result<String, Refusal>;
+
+    /// As [`Answer::files`].
+    ///
+    /// # Errors
+    /// If one of them cannot be written.
+    fn files(&self, place: &mut dyn Place) -> Result<(), Refusal>;
+}
+
+impl<A: Answer> AnyAnswer for A {
+    fn words(&self) -> Vec<Block> {
+        Answer::words(self)
+    }
+
+    fn ending(&self) -> Ending {
+        Answer::ending(self)
+    }
+
+    fn json(&self) -> Result<String, Refusal> {
+        #[derive(Serialize)]
+        struct Partial<'d, D> {
+            code: Code,
+            error: &'d str,
+            #[serde(flatten)]
+            document: &'d D,
+        }
+        match Answer::ending(self) {
+            Ending::Complete => json(self),
+            Ending::Partial { code, error } => json(&Partial {
+                code,
+                error: &error,
+                document: self,
+            }),
+        }
+    }
+
+    fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {
+        Answer::files(self, place)
+    }
+}

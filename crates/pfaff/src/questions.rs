@@ -1,0 +1,93 @@
+//! All questions, each in a folder of its own: options, computation, answer, words.
+
+pub mod equilibrium;
+pub mod linearise;
+
+use report::read_json;
+use scene::nearest;
+use serde::Deserialize;
+
+pub use equilibrium::Equilibrium;
+pub use linearise::Linearise;
+
+use crate::question::{AnyQuestion, Output, Question, Subject};
+use crate::refusal::Refusal;
+
+/// What is known of a question before it is asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Facts {
+    /// Subcommand and method of Python.
+    pub name: &'static str,
+    /// The files of an answer.
+    pub output: Option<Output>,
+    /// Names of the scenes that it is asked about.
+    pub scenes: &'static [&'static str],
+}
+
+impl Facts {
+    const fn of<Q: Question>() -> Self {
+        Self {
+            name: Q::NAME,
+            output: Q::OUTPUT,
+            scenes: <Q::Subject<'static> as Subject>::SCENES,
+        }
+    }
+}
+
+/// The one list of questions.
+macro_rules! questions {
+    ($($question:ident),+ $(,)?) => {
+        /// A question with its options.
+        #[derive(Clone, Debug, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        #[cfg_attr(feature = "command", derive(clap::Subcommand))]
+        pub enum Questions {
+            $(
+                #[allow(missing_docs)]
+                $question($question),
+            )+
+        }
+
+        impl Questions {
+            /// What is known of each of them, in the order of the list.
+            pub const FACTS: &'static [Facts] = &[$(Facts::of::<$question>()),+];
+
+            /// The question, whichever it is.
+            #[must_use]
+            pub fn as_question(&self) -> &dyn AnyQuestion {
+                match self {
+                    $(Self::$question(question) => question,)+
+                }
+            }
+        }
+    };
+}
+
+questions!(Equilibrium, Linearise);
+
+impl Questions {
+    /// The question of this name, with its options as a JSON object.
+    ///
+    /// ```
+    /// use pfaff::questions::Questions;
+    ///
+    /// assert!(Questions::read("equilibrium", r#"{ "stable": true }"#).is_ok());
+    /// let refused = Questions::read("equilibrum", "{}").unwrap_err();
+    /// assert!(refused.document().error.contains("did you mean `equilibrium`?"));
+    /// ```
+    ///
+    /// # Errors
+    /// There is no such question, or it has no such options.
+    pub fn read(name: &str, options: &str) -> Result<Self, Refusal> {
+        let known = || Self::FACTS.iter().map(|facts| facts.name);
+        if !known().any(|known| known == name) {
+            let near = nearest(name, known());
+            let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            return Err(Refusal::input(format!(
+                "there is no question `{name}`{near}"
+            )));
+        }
+        read_json(&format!("{{\"{name}\": {options}}}"))
+            .map_err(|e| Refusal::input(format!("the options of `{name}`: {e}")))
+    }
+}

@@ -1,0 +1,76 @@
+//! Where does the mechanism rest?
+
+mod answer;
+mod words;
+
+use dynamics::equilibrium::EquilibriumOptions;
+use model::System;
+use report::Family;
+use report::documents::Named;
+use serde::Deserialize;
+
+pub use answer::{EquilibriumAnswer, ReactionAtRest, RestingBody};
+
+use crate::error::StudyError;
+use crate::question::{Control, Output, Question};
+use crate::refusal::Refusal;
+use crate::start::Start;
+use crate::study::{Overrides, Study};
+
+/// A start at rest: where forces balance near the described start
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "command", derive(clap::Args))]
+#[cfg_attr(feature = "command", command(after_help = include_str!("equilibrium/examples.txt")))]
+pub struct Equilibrium {
+    /// Leave places that are not stable by a small push, and search on
+    #[cfg_attr(feature = "command", arg(long))]
+    pub stable: bool,
+}
+
+/// The scene that starts at rest.
+const SCENE: &str = "at-rest.toml";
+
+/// The document.
+const DOCUMENT: &str = "equilibrium.json";
+
+impl Question for Equilibrium {
+    const NAME: &'static str = "equilibrium";
+    const OUTPUT: Option<Output> = Some(Output {
+        family: Family(&[SCENE, DOCUMENT]),
+        contents: "a scene that starts there, at rest",
+    });
+    type Subject<'s> = Start<'s>;
+    type Answer = EquilibriumAnswer;
+
+    fn answer(&self, of: &Start<'_>, control: &Control<'_>) -> Result<EquilibriumAnswer, Refusal> {
+        let study = of.study(control)?;
+        let options = EquilibriumOptions {
+            stable: self.stable,
+        };
+        let (found, there) = study.equilibrium(&options).map_err(|e| of.refusal(e))?;
+        let reactions = reactions_at_rest(&there.held_at(found.time)).map_err(|e| e.to_string());
+        let mut answer = EquilibriumAnswer::new(&study, &found, reactions);
+        if control.wants_files {
+            let text = study.text_at_rest(&found.q);
+            let text = text.map_err(|e| Refusal::input(e.to_string()).coded(e.code()))?;
+            // What is written has to start where it says.
+            Study::read(SCENE, &text, of.registry, &Overrides::default()).map_err(|e| {
+                Refusal::stopped(format!("the scene that starts at rest cannot be read: {e}"))
+            })?;
+            answer.start_there(text);
+        }
+        Ok(answer)
+    }
+}
+
+/// The reactions at the start of a study.
+fn reactions_at_rest(there: &Study) -> Result<Named<ReactionAtRest>, StudyError> {
+    let configuration = there.analyse(0.0, None)?;
+    Ok(ReactionAtRest::all(
+        &configuration.analysis.reactions,
+        &configuration.determined_reactions()?,
+        &configuration.sensitivities()?,
+        configuration.mechanism.layout(),
+    ))
+}

@@ -1,0 +1,192 @@
+//! A place of rest: how far it is from the start, what is left of the forces, reactions there.
+
+use dynamics::equilibrium::{Equilibrium, RestStability};
+use linalg::kernels::norm;
+use model::{Layout, Mechanism, SpaceKind, System};
+use report::PROVENANCE;
+use report::documents::{Named, SensitivityDocument, VerdictDocument};
+use serde::Serialize;
+use solvability::{ReactionValues, ReactionVerdict, Sensitivities, Value};
+
+use super::{DOCUMENT, SCENE};
+use crate::question::{Answer, Place};
+use crate::refusal::{Refusal, json};
+use crate::study::Study;
+use crate::words::Block;
+
+/// A place of rest.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct EquilibriumAnswer {
+    /// Name of the scene.
+    pub scene: String,
+    /// Time at which functions of time were taken (s).
+    pub time: f64,
+    /// Steps of the search.
+    pub steps: usize,
+    /// Pushes that left places that were not stable.
+    pub pushes: usize,
+    /// What is left of the forces along free motions, as a share of the largest force.
+    pub residual: f64,
+    /// The largest force, or torque divided by the size of the mechanism (N).
+    pub largest_force: f64,
+    /// `immovable`, `stable`, `idle`, `unstable` or `not_judged`.
+    pub stability: &'static str,
+    /// Reason why it is not judged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub not_judged_because: Option<&'static str>,
+    /// How far each body is from the start, and where.
+    pub bodies: Named<RestingBody>,
+    /// Free motions that nothing pushes and nothing resists.
+    pub idle: Vec<String>,
+    /// Free motions along which forces push away.
+    pub falling: Vec<String>,
+    /// Whether another way leads to another place: nonholonomic rows.
+    pub depends_on_way: bool,
+    /// Drives, held where they are at that time, without rate or acceleration.
+    pub held: Vec<String>,
+    /// Drives and joints that are held, and that functions of time accelerate at once.
+    pub moving_on: Vec<String>,
+    /// Reactions of joints and drives there.
+    pub reactions: Named<ReactionAtRest>,
+    /// Why there are no numbers of reactions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub no_reactions_because: Option<String>,
+    /// Scene file that starts there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<&'static str>,
+    /// The text of that file.
+    #[serde(skip)]
+    text_at_rest: String,
+}
+
+/// A body at rest.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RestingBody {
+    /// Distance of the origin of its frame from the start (m).
+    pub moved: f64,
+    /// Angle by which it is turned from the start (rad); in the plane with its sign.
+    pub turned: f64,
+    /// Where its frame is: the columns of a trajectory, without velocities.
+    pub at: Named<f64>,
+}
+
+/// A reaction at rest.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ReactionAtRest {
+    /// Its verdict.
+    #[serde(flatten)]
+    pub verdict: VerdictDocument,
+    /// How strongly it depends on the data.
+    #[serde(flatten)]
+    pub data: SensitivityDocument,
+    /// Force and torque on the first body by component (N, N·m), as far as they are not identically
+    /// zero.
+    pub values: Named<Value>,
+}
+
+impl ReactionAtRest {
+    /// The documents of all reactions of an analysed configuration, with their names.
+    pub(super) fn all(
+        verdicts: &[ReactionVerdict],
+        values: &[ReactionValues],
+        sensitivities: &Sensitivities,
+        layout: &Layout,
+    ) -> Named<Self> {
+        let one = |(verdict, values): (&ReactionVerdict, &ReactionValues)| {
+            let numbers = values.components.iter();
+            let numbers = numbers.map(|(name, value)| ((*name).to_owned(), value.clone()));
+            let document = Self {
+                verdict: (&verdict.wrench).into(),
+                data: SensitivityDocument::of(sensitivities, verdict.id, layout),
+                values: Named(numbers.collect()),
+            };
+            (values.name.clone(), document)
+        };
+        Named(verdicts.iter().zip(values).map(one).collect())
+    }
+}
+
+impl EquilibriumAnswer {
+    /// The answer of a study, with its reactions at the place with functions of time held, or why
+    /// there are none.
+    pub(super) fn new(
+        study: &Study,
+        x: &Equilibrium,
+        there: Result<Named<ReactionAtRest>, String>,
+    ) -> Self {
+        let (mechanism, start) = (&study.prepared.mechanism, &study.prepared.q);
+        let bodies = (0..mechanism.bodies().len()).map(|body| {
+            let name = mechanism.bodies()[body].name.clone();
+            (name, resting(mechanism, body, start, &x.q))
+        });
+        let groups = &mechanism.layout().groups;
+        let drives = groups.iter().filter(|group| group.is_drive());
+        let (reactions, no_reactions_because) = match there {
+            Ok(reactions) => (reactions, None),
+            Err(why) => (Named(Vec::new()), Some(why)),
+        };
+        Self {
+            scene: study.scene.name().to_owned(),
+            time: x.time,
+            steps: x.steps,
+            pushes: x.pushes,
+            residual: x.residual,
+            largest_force: x.largest_force,
+            stability: x.stability.word(),
+            not_judged_because: RestStability::why_not(x.stability),
+            bodies: Named(bodies.collect()),
+            idle: x.idle.clone(),
+            falling: x.falling.clone(),
+            depends_on_way: x.depends_on_way,
+            held: drives.map(|group| group.name.clone()).collect(),
+            moving_on: x.moving_on.clone(),
+            reactions,
+            no_reactions_because,
+            file: None,
+            text_at_rest: String::new(),
+        }
+    }
+
+    /// Adds the text of a scene that starts there.
+    pub(super) fn start_there(&mut self, text: String) {
+        let head = "equilibrium: `start` says where bodies start, at rest";
+        self.text_at_rest = format!("{PROVENANCE} {head}\n{text}");
+        self.file = Some(SCENE);
+    }
+}
+
+impl Answer for EquilibriumAnswer {
+    fn words(&self) -> Vec<Block> {
+        super::words::of(self)
+    }
+
+    fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {
+        place.put(SCENE, self.text_at_rest.as_bytes())?;
+        place.put(DOCUMENT, json(self)?.as_bytes())?;
+        Ok(())
+    }
+}
+
+fn resting(mechanism: &Mechanism, body: usize, start: &[f64], q: &[f64]) -> RestingBody {
+    let space = mechanism.space();
+    let v = vec![0.0; space.n_v() * mechanism.bodies().len()];
+    let [from, to] = [start, q].map(|q| mechanism.frames().body(body, q, &v));
+    let way: [f64; 3] = std::array::from_fn(|k| to.place[k] - from.place[k]);
+    let turned = match space {
+        SpaceKind::Space3 => {
+            let turned = mechanism.difference_of(q, start);
+            norm(&turned[space.rotations_of(body)])
+        }
+        _ => to.angle - from.angle,
+    };
+    let places = space.columns().len() - space.n_v();
+    let places = space.columns().iter().zip(to.numbers()).take(places);
+    RestingBody {
+        moved: norm(&way),
+        turned,
+        at: Named(places.map(|(name, x)| ((*name).to_owned(), x)).collect()),
+    }
+}

@@ -1,0 +1,123 @@
+//! The place of rest in words.
+
+use model::words::rounded;
+
+use super::{EquilibriumAnswer, SCENE};
+use crate::words::{Block, count, marked};
+
+/// Numbers below this share of the largest of their kind are shown as zero.
+const VISIBLE: f64 = 1e-12;
+
+pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
+    let mut blocks = vec![Block::sentence(found(d)), Block::sentence(stability(d))];
+    let mut say = |text: String| blocks.push(Block::sentence(text));
+    if !d.idle.is_empty() {
+        say(format!(
+            "free motions that nothing pushes, so that other places along them are places of rest, too: {}",
+            d.idle.join("; ")
+        ));
+    }
+    if d.depends_on_way {
+        say("rolling and knife edges restrict the way, not the place: other ways lead to other places of rest".to_owned());
+    }
+    if !d.held.is_empty() {
+        let held = marked(&d.held);
+        say(format!("drives are held at t = {} s: {held}", d.time));
+    }
+    if !d.moving_on.is_empty() {
+        let names = marked(&d.moving_on);
+        say(format!(
+            "a run from here begins with other forces, since functions of time accelerate: {names}"
+        ));
+    }
+    blocks.push(bodies(d));
+    if let Some(why) = &d.no_reactions_because {
+        blocks.push(Block::sentence(format!("no reactions: {why}")));
+    } else if !d.reactions.0.is_empty() {
+        blocks.push(reactions(d));
+    }
+    if d.file.is_some() {
+        blocks.push(Block::sentence(format!(
+            "`{SCENE}` starts there: `pfaff simulate` and `pfaff linearise` take it"
+        )));
+    }
+    blocks
+}
+
+fn found(d: &EquilibriumAnswer) -> String {
+    let balance = match d.residual {
+        0.0 => "forces balance".to_owned(),
+        left => format!("forces balance to {left:.1e} of the largest"),
+    };
+    let steps = count(d.steps, "step", "steps");
+    let found = match (d.steps, d.pushes) {
+        (0, 0) => "rests where it starts".to_owned(),
+        (_, 0) => format!("rests, found in {steps}"),
+        (_, pushes) => {
+            let pushes = count(pushes, "push", "pushes");
+            format!("rests, found in {steps} after {pushes}")
+        }
+    };
+    let (scene, time) = (&d.scene, d.time);
+    format!("{scene} {found}, with functions of time at t = {time} s: {balance}")
+}
+
+fn stability(d: &EquilibriumAnswer) -> String {
+    match d.stability {
+        "immovable" => "nothing can move".to_owned(),
+        "stable" => "stable: forces push back from every displacement".to_owned(),
+        "idle" => "no displacement is pushed further, and some are not pushed back".to_owned(),
+        "unstable" => format!(
+            "unstable: forces push further along: {}; `--stable` leaves such places",
+            d.falling.join("; ")
+        ),
+        _ => format!(
+            "whether it is stable is not judged: {}",
+            d.not_judged_because.unwrap_or_default()
+        ),
+    }
+}
+
+fn bodies(d: &EquilibriumAnswer) -> Block {
+    let places = d.bodies.0.iter().flat_map(|(_, body)| body.at.0.iter());
+    let largest = places.fold(0.0, |a: f64, (_, x)| a.max(x.abs()));
+    let lines = d.bodies.0.iter().map(|(name, body)| {
+        let at = body.at.0.iter();
+        let at = at.map(|(name, x)| format!("{name} = {}", short(*x, largest)));
+        [
+            name.clone(),
+            short(body.moved, largest),
+            short(body.turned, 1.0),
+            at.collect::<Vec<_>>().join(", "),
+        ]
+    });
+    Block::table(["body", "moved (m)", "turned (rad)", "is at"], lines)
+}
+
+fn reactions(d: &EquilibriumAnswer) -> Block {
+    let values = d.reactions.0.iter().flat_map(|(_, r)| r.values.0.iter());
+    let values = values.filter_map(|(_, x)| x.determined());
+    let largest = values.fold(0.0, |a: f64, x| a.max(x.abs()));
+    let lines = d.reactions.0.iter().map(|(name, reaction)| {
+        let values = reaction.values.0.iter();
+        // What is not determined has no number.
+        let values = values.map(|(name, x)| match x.determined() {
+            None => format!("{name} = –"),
+            Some(x) => format!("{name} = {}", short(x, largest)),
+        });
+        [
+            name.clone(),
+            values.collect::<Vec<_>>().join(", "),
+            reaction.verdict.verdict.replace('_', " "),
+        ]
+    });
+    Block::table(["reaction", "on the first body", "verdict"], lines)
+}
+
+/// A number with six digits; what is a rounding of the largest of its kind is zero.
+fn short(x: f64, largest: f64) -> String {
+    match x.abs() {
+        size if size <= VISIBLE * largest => "0".to_owned(),
+        _ => rounded(x),
+    }
+}

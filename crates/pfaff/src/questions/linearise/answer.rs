@@ -1,0 +1,176 @@
+//! A linearised motion: matrices, eigenvalues and modes.
+
+use dynamics::linearise::{Coordinate, Linearisation, Mode, Stability};
+use linalg::Matrix;
+use report::documents::Named;
+use serde::Serialize;
+
+use super::{DOCUMENT, MODES, tables};
+use crate::question::{Answer, Place};
+use crate::refusal::{Refusal, json};
+use crate::words::Block;
+
+/// A linearised motion.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct LineariseAnswer {
+    /// Name of the scene.
+    pub scene: String,
+    /// Time of the state (s).
+    pub time: f64,
+    /// The states x: positions, then velocities.
+    pub states: Vec<NamedState>,
+    /// How many of them are positions.
+    pub positions: usize,
+    /// The inputs u.
+    pub inputs: Vec<NamedInput>,
+    /// Drives and joints that are held at this time because the state is at rest, and that
+    /// functions of time would accelerate.
+    pub held: Vec<String>,
+    /// A of `ẋ = A·x + B·u`, by rows.
+    pub a: Vec<Vec<f64>>,
+    /// B, by rows.
+    pub b: Vec<Vec<f64>>,
+    /// M, D and K of `M·ÿ + D·ẏ + K·y`; `null` for states that move, for nonholonomic rows and if a
+    /// coordinate is followed.
+    pub second_order: Option<SecondOrderMatrices>,
+    /// Difference of two orders of approximation, as a share of the largest derivative.
+    pub accuracy: f64,
+    /// What first order says of small motions; `null` without eigenvalues.
+    pub stability: Option<&'static str>,
+    /// The modes, those that grow fastest first; `null` without eigenvalues.
+    pub modes: Option<Vec<ModeOfMotion>>,
+    /// Pages of modes, each with the number of its mode, from 0.
+    #[serde(skip)]
+    pub(super) pages: Vec<(usize, String)>,
+}
+
+/// A state.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct NamedState {
+    /// Body and coordinate.
+    pub name: String,
+    /// Its unit.
+    pub unit: &'static str,
+}
+
+/// An input.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct NamedInput {
+    /// The drive or force.
+    pub name: String,
+    /// What of it: `value`, `rate` or `acceleration` of a drive, the function of a force.
+    pub what: String,
+}
+
+/// Matrices of `M·ÿ + D·ẏ + K·y`, by rows.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct SecondOrderMatrices {
+    /// M.
+    pub mass: Vec<Vec<f64>>,
+    /// D.
+    pub damping: Vec<Vec<f64>>,
+    /// K.
+    pub stiffness: Vec<Vec<f64>>,
+}
+
+/// A mode. Of a conjugate pair the eigenvalue with the positive imaginary part is listed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ModeOfMotion {
+    /// Real part of the eigenvalue (1/s).
+    pub real: f64,
+    /// Its imaginary part (rad/s).
+    pub imaginary: f64,
+    /// Frequency at which it oscillates, with its damping (Hz): Im λ/2π; zero if it does not.
+    pub frequency: f64,
+    /// The frequency that it would have without its damping (Hz): |λ|/2π; `null` if it does not
+    /// oscillate.
+    pub natural_frequency: Option<f64>,
+    /// −Re λ/|λ|; `null` for λ = 0.
+    pub damping_ratio: Option<f64>,
+    /// Shape: real and imaginary part of each state; the largest position is 1.
+    pub shape: Named<[f64; 2]>,
+}
+
+impl LineariseAnswer {
+    /// The answer for a linearised motion of a scene, with its modes if they are known.
+    pub(super) fn new(scene: &str, x: &Linearisation, modes: Option<&[Mode]>) -> Self {
+        let states: Vec<&Coordinate> = x.positions.iter().chain(&x.velocities).collect();
+        let mode = |mode: &Mode| ModeOfMotion {
+            real: mode.value[0],
+            imaginary: mode.value[1],
+            frequency: mode.value[1] / std::f64::consts::TAU,
+            natural_frequency: mode
+                .oscillates()
+                .then(|| mode.natural_frequency() / std::f64::consts::TAU),
+            damping_ratio: mode.damping_ratio(),
+            shape: Named(
+                states
+                    .iter()
+                    .zip(&mode.states)
+                    .map(|(state, z)| (state.name.clone(), *z))
+                    .collect(),
+            ),
+        };
+        Self {
+            scene: scene.to_owned(),
+            time: x.time,
+            positions: x.positions.len(),
+            inputs: x
+                .inputs
+                .iter()
+                .map(|input| NamedInput {
+                    name: input.name.clone(),
+                    what: input.what.clone(),
+                })
+                .collect(),
+            held: x.held.clone(),
+            a: rows(&x.a),
+            pages: Vec::new(),
+            b: rows(&x.b),
+            second_order: x.second_order.as_ref().map(|second| SecondOrderMatrices {
+                mass: rows(&second.mass),
+                damping: rows(&second.damping),
+                stiffness: rows(&second.stiffness),
+            }),
+            accuracy: x.accuracy,
+            stability: modes.map(|modes| Stability::of(modes).word()),
+            modes: modes.map(|modes| modes.iter().map(mode).collect()),
+            states: states
+                .iter()
+                .map(|state| NamedState {
+                    name: state.name.clone(),
+                    unit: state.unit,
+                })
+                .collect(),
+        }
+    }
+}
+
+impl Answer for LineariseAnswer {
+    fn words(&self) -> Vec<Block> {
+        super::words::of(self)
+    }
+
+    fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {
+        for (name, text) in tables::matrices(self)? {
+            place.put(name, &text)?;
+        }
+        if self.modes.is_some() {
+            place.put(MODES, &tables::modes(self)?)?;
+        }
+        place.put(DOCUMENT, json(self)?.as_bytes())?;
+        for (k, page) in &self.pages {
+            place.put(&format!("mode-{}.html", k + 1), page.as_bytes())?;
+        }
+        Ok(())
+    }
+}
+
+fn rows(m: &Matrix) -> Vec<Vec<f64>> {
+    (0..m.nrows()).map(|i| m.row(i).to_vec()).collect()
+}

@@ -1,0 +1,98 @@
+//! Pages on which modes move.
+
+use dynamics::linearise::{Linearisation, Mode};
+use model::System;
+use report::{Frame, Origin, Recording, RunPage, Shows, run_page};
+
+use super::words::value;
+use crate::report_builder::written_scene;
+use crate::study::Study;
+
+/// Modes with pages of their own, first those that are not zero: others are in the tables only.
+const PAGES: usize = 12;
+
+/// Frames of the page of a mode in one period.
+const FRAMES: usize = 40;
+
+/// Periods of the page of a mode.
+const PERIODS: usize = 8;
+
+/// The largest displacement of a mode on its page, as a share of the size of the mechanism or in
+/// radians.
+const AMPLITUDE: f64 = 0.15;
+
+/// The pages of the modes that have one, each with the number of its mode, from 0.
+pub(super) fn all(
+    study: &Study,
+    found: &Linearisation,
+    modes: &[Mode],
+    origin: &Origin,
+) -> Vec<(usize, String)> {
+    let page = |k| (k, page(study, found, (&modes[k], k + 1), origin));
+    shown(modes).into_iter().map(page).collect()
+}
+
+/// The modes that have pages: the first of those that are not zero, then of the others.
+fn shown(modes: &[Mode]) -> Vec<usize> {
+    let (zero, moving): (Vec<usize>, Vec<usize>) =
+        (0..modes.len()).partition(|&k| modes[k].value == [0.0; 2]);
+    let mut shown: Vec<usize> = moving.into_iter().chain(zero).take(PAGES).collect();
+    shown.sort_unstable();
+    shown
+}
+
+/// A page on which a mode moves for a period, or for a second if it has none.
+fn page(
+    study: &Study,
+    found: &Linearisation,
+    (mode, number): (&Mode, usize),
+    origin: &Origin,
+) -> String {
+    let mechanism = &study.prepared.mechanism;
+    let size = study.prepared.assembly.size;
+    let space = mechanism.space();
+    let most = |shape: &[f64]| {
+        let shares = shape.iter().enumerate();
+        shares.fold(0.0_f64, |a, (j, d)| a.max(d.abs() / space.unit(j, size)))
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let largest = most(&found.shape(mode, 0.0, 1.0)).max(most(&found.shape(mode, quarter, 1.0)));
+    let amplitude = if largest > 0.0 {
+        AMPLITUDE / largest
+    } else {
+        0.0
+    };
+    let period = match mode.value[1] {
+        0.0 => 1.0,
+        rate => std::f64::consts::TAU / rate,
+    };
+    let mut recording = Recording::new(period, FRAMES as f64, 1);
+    for k in 0..=PERIODS * FRAMES {
+        let share = k as f64 / FRAMES as f64;
+        let shape = found.shape(mode, std::f64::consts::TAU * share, amplitude);
+        let q = space.displaced(&found.q, 1.0, &shape);
+        let frame = Frame::at_rest(share * period, &q, mechanism.layout().n_v);
+        recording.frames.push(frame);
+    }
+    let what = format!(
+        "Mode {number} of small motions about t = {} s, with eigenvalue {} (1/s): drawn enlarged, and \
+         without decay or growth",
+        found.time,
+        value(mode.value)
+    );
+    run_page(&RunPage {
+        mechanism,
+        analysis: None,
+        hints: &[],
+        shows: Shows::Mode(&what),
+        stretches: None,
+        recording: &recording,
+        comparisons: &[],
+        drives: &[],
+        origin,
+        scene: written_scene(&study.scene),
+        options: &[],
+        left_out: &[],
+        work_precision: None,
+    })
+}

@@ -1,0 +1,72 @@
+//! Tables of a linearised motion: each matrix, and the modes.
+
+use std::iter;
+
+use report::{Table, TableError};
+
+use super::{LineariseAnswer, MODES};
+
+/// Matrices with the names of their files: a letter and the names of the columns, then the name of
+/// each row and its numbers.
+pub(super) fn matrices(of: &LineariseAnswer) -> Result<Vec<(&'static str, Vec<u8>)>, TableError> {
+    let states: Vec<String> = of.states.iter().map(|state| state.name.clone()).collect();
+    let inputs = of.inputs.iter().map(|i| format!("{}.{}", i.name, i.what));
+    let inputs: Vec<String> = inputs.collect();
+    let positions = &states[..of.positions];
+    let mut all = vec![("a.csv", "A", &of.a, states.as_slice())];
+    if !inputs.is_empty() {
+        all.push(("b.csv", "B", &of.b, &inputs));
+    }
+    if let Some(second) = &of.second_order {
+        all.extend([
+            ("m.csv", "M", &second.mass, positions),
+            ("d.csv", "D", &second.damping, positions),
+            ("k.csv", "K", &second.stiffness, positions),
+        ]);
+    }
+    let written = all.into_iter().map(|(name, letter, matrix, columns)| {
+        let header: Vec<String> = iter::once(letter.to_owned())
+            .chain(columns.iter().cloned())
+            .collect();
+        let mut table = Table::new(name, Vec::new(), &header)?;
+        for (state, row) in states.iter().zip(matrix) {
+            let numbers = row.iter().map(f64::to_string);
+            table.record(iter::once(state.clone()).chain(numbers).collect::<Vec<_>>())?;
+        }
+        Ok((name, table.finish()?))
+    });
+    written.collect()
+}
+
+/// Eigenvalue, frequency with and without its damping, damping ratio and shape of each mode; empty
+/// where there is no such value.
+pub(super) fn modes(of: &LineariseAnswer) -> Result<Vec<u8>, TableError> {
+    let known = [
+        "mode",
+        "real",
+        "imaginary",
+        "frequency",
+        "natural_frequency",
+        "damping_ratio",
+    ];
+    let mut header: Vec<String> = known.map(str::to_owned).to_vec();
+    for state in &of.states {
+        header.extend(["re", "im"].map(|part| format!("{}.{part}", state.name)));
+    }
+    let mut table = Table::new(MODES, Vec::new(), &header)?;
+    for (k, mode) in of.modes.iter().flatten().enumerate() {
+        let known = |x: Option<f64>| x.map_or(String::new(), |x| x.to_string());
+        let mut row = vec![
+            (k + 1).to_string(),
+            mode.real.to_string(),
+            mode.imaginary.to_string(),
+            mode.frequency.to_string(),
+            known(mode.natural_frequency),
+            known(mode.damping_ratio),
+        ];
+        let shape = mode.shape.0.iter().flat_map(|(_, z)| z);
+        row.extend(shape.map(f64::to_string));
+        table.record(&row)?;
+    }
+    table.finish()
+}
