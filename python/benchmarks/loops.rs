@@ -2,7 +2,7 @@
 //! `python`. Analyses the scene so many times, from its `text` or once it was `read`.
 
 use pfaff::model::Registry;
-use pfaff::{Overrides, Study, StudyError};
+use pfaff::{RunOptions as Overrides, Study, StudyError};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

@@ -11,13 +11,13 @@ use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
     DistributionDocument, EliminationsDocument, MakeUniqueDocument, part_as_json,
 };
+use pfaff::start::Judged;
 use pyo3::prelude::*;
 use serde::Serialize;
 
 use crate::fault::{Fault, wrong};
 use crate::hearing::heard;
 use crate::options::{About, Allow, Choose};
-use crate::scene::Judged;
 
 /// An analysed configuration. All answers are documents as JSON.
 #[pyclass(frozen, module = "pfaff._pfaff")]
@@ -56,7 +56,7 @@ impl Analysis {
     fn document(&self, py: Python<'_>, combine: Vec<String>) -> PyResult<String> {
         self.ask(py, move |of, configuration| {
             let mut document = configuration.document(&combine)?;
-            of.add_warnings(&mut document)?;
+            of.add_warnings(&mut document).map_err(Fault::from)?;
             Ok(json(&document)?)
         })
     }

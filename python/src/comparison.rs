@@ -6,7 +6,7 @@ use pfaff::model::Tolerance;
 use pfaff::refusal::json;
 use pfaff::report::{Provenance, WorkPrecisionDocument};
 use pfaff::work_precision::{Plan, Subject, overview, provenance};
-use pfaff::{Overrides, StudyError};
+use pfaff::{RunOptions as Overrides, StudyError};
 use pyo3::prelude::*;
 
 use crate::hearing::heard;

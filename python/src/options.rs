@@ -9,7 +9,7 @@ use pfaff::memory::{Budget, Bytes};
 use pfaff::model::{ConstraintId, Mechanism, System, Tolerance};
 use pfaff::scene::nearest;
 use pfaff::solvability::{Allowed, Choice, Compliance, NormWeights};
-use pfaff::{Overrides, StudyError};
+use pfaff::{RunOptions as Overrides, StudyError};
 use pyo3::prelude::*;
 
 use crate::fault::{Fault, wrong};

@@ -5,22 +5,19 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use numpy::{IntoPyArray, PyArray1, PyArray2};
-use pfaff::configuration::KeptAnalysis;
 use pfaff::import::{Axes, Base, FixedLinks, Folder, Options};
 use pfaff::memory::Budget;
 use pfaff::model::codes::Code;
-use pfaff::model::{Mechanism, Registry, System, Tolerance};
+use pfaff::model::{Registry, System, Tolerance};
 use pfaff::question::Control;
 use pfaff::questions::Questions;
 use pfaff::refusal::{Refusal, json};
 use pfaff::report::documents::EventDocument;
-use pfaff::report::{
-    AnalysisDocument, Column as ReportColumn, Origin, OutputDirectory, ReactionColumn, Trajectory,
-};
+use pfaff::report::{Column as ReportColumn, Origin, OutputDirectory, ReactionColumn, Trajectory};
 use pfaff::scene::{KeyError, Template};
-use pfaff::start::Start;
+use pfaff::start::{Judged, Start};
 use pfaff::study::EndedRun;
-use pfaff::{AssembledScene, Overrides, Study, StudyError, source};
+use pfaff::{AssembledScene, RunOptions as Overrides, Study, StudyError, source};
 use pyo3::prelude::*;
 
 use crate::analysis::{Analysis, Configured, plain};
@@ -32,68 +29,22 @@ use crate::run::{Column, Recorded, Run, by_rows};
 
 pub(crate) static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standard);
 
-/// A scene with its start.
-pub(crate) enum Judged {
-    /// It can move.
-    Moves(Arc<Study>),
-    /// It can only be judged at its start.
-    Stands {
-        assembled: Box<AssembledScene>,
-        kept: KeptAnalysis,
-        /// Why, as a warning and as a refusal of what needs a motion.
-        warning: String,
-        refusal: Box<Refusal>,
-    },
-}
-
-impl Judged {
-    pub(crate) fn parts(&self) -> (&pfaff::scene::Scene, &Mechanism) {
-        match self {
-            Self::Moves(study) => (&study.scene, &study.prepared.mechanism),
-            Self::Stands { assembled, .. } => (&assembled.scene, &assembled.mechanism),
-        }
-    }
-
-    pub(crate) fn study(&self) -> Result<&Study, Fault> {
-        match self {
-            Self::Moves(study) => Ok(study),
-            Self::Stands { refusal, .. } => Err(refusal.as_ref().clone().into()),
-        }
-    }
-
-    /// Adds what speaks against a motion from the start, as the command does.
-    pub(crate) fn add_warnings(&self, document: &mut AnalysisDocument) -> Result<(), Fault> {
-        match self {
-            Self::Moves(study) if document.configuration.time == 0.0 => {
-                Ok(study.add_warnings(document)?)
-            }
-            Self::Moves(_) => Ok(()),
-            Self::Stands { warning, .. } => {
-                document.warnings.insert(0, warning.clone());
-                Ok(())
-            }
-        }
-    }
-}
-
-type Known = Option<(Tolerance, Arc<Judged>)>;
-
 /// The text of a scene. It does not change; what was read from it is kept.
 #[pyclass(frozen, module = "pfaff._pfaff")]
 pub(crate) struct Scene(pub(crate) Arc<Source>);
 
 impl Scene {
     fn of(name: String, text: String) -> Self {
-        let known = Mutex::new(None);
-        Self(Arc::new(Source { name, text, known }))
+        let start = Mutex::new(None);
+        Self(Arc::new(Source { name, text, start }))
     }
 }
 
-/// A text with its name in messages, and what was read from it.
+/// A text with its name in messages, and its start as it was asked about last.
 pub(crate) struct Source {
     pub(crate) name: String,
     pub(crate) text: String,
-    known: Mutex<Known>,
+    start: Mutex<Option<Arc<Start<'static>>>>,
 }
 
 impl Source {
@@ -110,32 +61,23 @@ impl Source {
         Ok(budget.assembled((&self.name, &self.text), &REGISTRY, tolerance)?)
     }
 
-    fn prepared(
-        &self,
-        (tolerance, budget): (Tolerance, Budget),
-        drop: Option<Vec<usize>>,
-    ) -> Result<Judged, Fault> {
-        let overrides = Overrides {
-            drop,
-            ..Overrides::default()
-        };
-        let error = match self.assembled(tolerance, budget)?.prepare(&overrides) {
-            Ok(study) => return Ok(Judged::Moves(Arc::new(study))),
-            Err(e) => e,
-        };
-        let Some(warning) = error.only_motion() else {
-            return Err(self.fault(error));
-        };
-        let refusal = Refusal::of((&self.name, &self.text), error);
-        let mut assembled = self.assembled(tolerance, budget)?;
-        let kept = assembled.analyse(overrides.drop.as_deref());
-        let kept = kept.map_err(|e| self.fault(e))?.kept();
-        Ok(Judged::Stands {
-            assembled: Box::new(assembled),
-            kept,
-            warning,
-            refusal: Box::new(refusal),
-        })
+    /// The start with this tolerance of the data, within this memory. What is known of it stays
+    /// known.
+    fn start(&self, tolerance: Tolerance, budget: Budget) -> Arc<Start<'static>> {
+        let mut last = self.start.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(start) = last.as_ref()
+            && (start.tolerance, start.budget) == (tolerance, budget)
+        {
+            return Arc::clone(start);
+        }
+        let mut start = Start::new(self.name.clone(), self.text.clone(), &REGISTRY, budget);
+        start.tolerance = tolerance;
+        if let Some(known) = last.as_ref().filter(|known| known.tolerance == tolerance) {
+            start = start.knowing(known);
+        }
+        let start = Arc::new(start);
+        *last = Some(Arc::clone(&start));
+        start
     }
 
     /// The scene with its start, read and assembled once.
@@ -144,31 +86,15 @@ impl Source {
         (tolerance, budget): (Tolerance, Budget),
         drop: Option<Vec<usize>>,
     ) -> Result<Arc<Judged>, Fault> {
-        if drop.is_some() {
-            return Ok(Arc::new(self.prepared((tolerance, budget), drop)?));
-        }
-        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = known().as_ref().and_then(|(of, judged)| {
-            let is_same = *of == tolerance;
-            is_same.then(|| Arc::clone(judged))
-        });
-        if let Some(judged) = found {
-            // A limit refuses the same scenes whether or not they are known.
-            if budget.limit.is_some() {
-                let (_, mechanism) = judged.parts();
-                budget.allow_scene((&self.name, &self.text), mechanism)?;
-            }
-            return Ok(judged);
-        }
-        // Two threads may both do this; they find the same.
-        let judged = Arc::new(self.prepared((tolerance, budget), None)?);
-        *known() = Some((tolerance, Arc::clone(&judged)));
-        Ok(judged)
-    }
-
-    /// The scene with its start, within the memory that the machine has left.
-    fn start(&self) -> Result<Arc<Judged>, Fault> {
-        self.judged((Tolerance::default(), budget(None)?), None)
+        let start = self.start(tolerance, budget);
+        let with = Overrides {
+            drop,
+            ..Overrides::default()
+        };
+        Ok(match with.drop {
+            None => start.judged(&Control::quiet())?,
+            Some(_) => Arc::new(start.judged_with(&with, &Control::quiet())?),
+        })
     }
 
     /// The scene with functions of Python in it, for one run.
@@ -493,7 +419,7 @@ impl Scene {
     fn names(&self, py: Python<'_>) -> PyResult<(String, Vec<String>, Vec<String>)> {
         let own = Arc::clone(&self.0);
         heard(py, move |_| {
-            let judged = own.start()?;
+            let judged = own.judged((Tolerance::default(), budget(None)?), None)?;
             let (scene, mechanism) = judged.parts();
             let bodies = mechanism.bodies().iter().map(|body| body.name.clone());
             let groups = mechanism.layout().groups.iter();
@@ -522,7 +448,7 @@ impl Scene {
             let within = (tolerance(length, angle), budget(max_memory.as_ref())?);
             let judged = own.judged(within, drop.clone())?;
             let kept = match judged.as_ref() {
-                Judged::Stands { kept, .. } if t == 0.0 => kept.clone(),
+                Judged::Stands(stands) if t == 0.0 => stands.kept.clone(),
                 judged => {
                     let ends = || hearing.has_ended();
                     let found = judged.study()?.analyse_until(t, drop.as_deref(), &ends);
@@ -645,7 +571,7 @@ impl Scene {
             let judged = own.judged((Tolerance::default(), budget), None)?;
             let (own_q, own_v) = match judged.as_ref() {
                 Judged::Moves(study) => (&study.prepared.q, &study.prepared.v),
-                Judged::Stands { kept, .. } => (&kept.state.q, &kept.state.v),
+                Judged::Stands(stands) => (&stands.kept.state.q, &stands.kept.state.v),
             };
             let (_, mechanism) = judged.parts();
             let layout = mechanism.layout();
@@ -687,22 +613,30 @@ impl Scene {
         Ok((c, mass, gamma, force, b, phi))
     }
 
-    /// Asks a question by its name, with its options as a JSON object; returns the document.
-    fn ask(&self, py: Python<'_>, question: String, options: String) -> PyResult<String> {
-        let own = Arc::clone(&self.0);
+    /// Asks a question by its name about this scene and perhaps another one, with its options as a
+    /// JSON object; returns the document.
+    fn ask(
+        &self,
+        py: Python<'_>,
+        question: String,
+        options: String,
+        other: Option<PyRef<'_, Self>>,
+    ) -> PyResult<String> {
+        let others = other.map(|other| Arc::clone(&other.0));
+        let all: Vec<_> = std::iter::once(Arc::clone(&self.0)).chain(others).collect();
         heard(py, move |hearing| {
             let asked = Questions::read(&question, &options)?;
             let budget = budget(None)?;
-            let start = Start::new(own.name.clone(), own.text.clone(), &REGISTRY, budget);
-            let start = match own.start()?.as_ref() {
-                Judged::Moves(study) => start.knowing(Arc::clone(study)),
-                Judged::Stands { .. } => start,
-            };
+            let starts = all
+                .iter()
+                .map(|own| own.start(Tolerance::default(), budget));
+            let starts: Vec<_> = starts.collect();
             let control = Control {
                 stop: &|| hearing.has_ended(),
                 ..Control::quiet()
             };
-            let answer = asked.as_question().ask(&[start], &control)?;
+            let starts: Vec<&Start<'_>> = starts.iter().map(Arc::as_ref).collect();
+            let answer = asked.as_question().ask(&starts, &control)?;
             Ok(answer.json()?)
         })
     }

@@ -135,12 +135,24 @@ def test_summary(name: str, command: Command, tmp_path: Path) -> None:
 
 
 def test_linearisation(command: Command) -> None:
-    path = ROOT / "examples" / "knife-edge.toml"
     hanging = PENDULUM.replace("position = [1.0, 0.0]", "position = [0.0, -1.0]")
     expected = command.document("linearise", "-", stdin=hanging)
     found = pfaff.Scene.from_string(hanging, "<stdin>").linearise()
     assert found.document == expected
-    assert path.exists()
+
+
+def test_questions(command: Command) -> None:
+    door, hinges = (ROOT / "examples" / f"{name}.toml" for name in ("door", "hinges"))
+    scene, other = map(pfaff.Scene.from_file, (door, hinges))
+    assert scene.equilibrium(stable=True) == command.document("equilibrium", door, "--stable")
+    assert scene.summary() == command.document("check", door)
+    assert scene.diff(other) == command.document("diff", door, hinges)
+    options = ["--method", "radau5", "--t-end", "2", "--vary", "body.leaf.mass=1:2:3"]
+    found = scene.plan(method="radau5", t_end=2.0, vary=["body.leaf.mass=1:2:3"])
+    expected = command.document("plan", door, *options)
+    assert {**found, "memory": 0} == {**expected, "memory": 0}
+    with pytest.raises(pfaff.InputError, match="`euler` is none of"):
+        scene.plan(method="euler")
 
 
 FAULTS = {

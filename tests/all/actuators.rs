@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use dynamics::{Method, MotionOptions, Summary};
 use model::{Reaction, Registry, System};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 /// Time, coordinates, velocities and reactions of one row.
 struct Row {
@@ -19,7 +19,7 @@ fn study(text: &str) -> Study {
         "test.toml",
         text,
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     );
     study.unwrap_or_else(|e| panic!("{e}"))
 }
@@ -219,7 +219,7 @@ fn units_of_laws_are_checked() {
             "test.toml",
             &text,
             &Registry::standard(),
-            &Overrides::default(),
+            &RunOptions::default(),
         );
         read.err().expect(law).to_string()
     };

@@ -72,7 +72,7 @@ impl Guided {
 
     fn study(&self) -> Study {
         let scene = AssembledScene::read("guided.toml", &self.text, &Registry::standard());
-        let study = scene.and_then(|scene| scene.prepare(&Overrides::default()));
+        let study = scene.and_then(|scene| scene.prepare(&RunOptions::default()));
         study.unwrap_or_else(|e| panic!("{e}\n{}", self.text))
     }
 
@@ -165,7 +165,7 @@ at = [0.5, 0.5, -0.5]
 normal = [0, 1, 0]
 "#;
     let scene = AssembledScene::read("rod.toml", text, &Registry::standard());
-    let study = scene.and_then(|scene| scene.prepare(&Overrides::default()));
+    let study = scene.and_then(|scene| scene.prepare(&RunOptions::default()));
     let p = study.expect("it assembles").prepared;
     let found = solution(&p.mechanism, (0.0, &p.q, &p.v), &p.decision).expect("there is one");
     assert!(

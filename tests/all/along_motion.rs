@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
 use joints::RevoluteAngleDrive;
 use model::{BodyRef, Drive, Function, Layout, Mechanism, Registry, StartOptions, System};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 use solvability::{
     Along, AlongError, Continuation, PassageKind, State, Stretches, Verdict, VerdictTrack,
     along_motion,
@@ -455,7 +455,7 @@ fn along_the_motion_of_an_example_the_verdicts_are_those_of_its_run() {
     assert!(names.len() > 30, "{names:?}");
     for name in names {
         let text = super::examples::read(&super::examples::scene(&name));
-        let study = Study::read(&name, &text, &Registry::standard(), &Overrides::default());
+        let study = Study::read(&name, &text, &Registry::standard(), &RunOptions::default());
         let study = study.unwrap_or_else(|e| panic!("{name}: {e}"));
         let base = study.options.clone().expect("every example says how long");
         let t_end = base.t_end.min(2.0);

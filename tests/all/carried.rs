@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use dynamics::plan::Verdicts;
 use dynamics::{MotionOptions, Plan, Wanted};
 use model::{Registry, System};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 use solvability::{CARRIED_VECTORS, Stretches};
 
 /// A beam of 1 kg/m on so many parallel cranks of 1 m, inclined by 0.6, and a pendulum on it.
@@ -60,7 +60,7 @@ fn many_dependencies_are_read_from_few_combinations() {
         "cranks.toml",
         &cranks(count),
         &registry,
-        &Overrides::default(),
+        &RunOptions::default(),
     )
     .unwrap_or_else(|e| panic!("{e}"));
     let options = MotionOptions {
@@ -103,7 +103,7 @@ fn verdicts_on_stretches_do_not_depend_on_instants() {
         "towed-cart",
     ] {
         let text = std::fs::read_to_string(format!("{examples}/{name}.toml")).expect("is read");
-        let study = Study::read(name, &text, &registry, &Overrides::default());
+        let study = Study::read(name, &text, &registry, &RunOptions::default());
         let study = study.unwrap_or_else(|e| panic!("{name}: {e}"));
         let options = study.options.clone().expect("an end");
         let [all, few] = [Verdicts::WithInstants, Verdicts::OfRun].map(|verdicts| {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use dynamics::plan::{Plan, Wanted};
 use dynamics::{MotionFault, MotionOptions, Sample};
 use model::{ConstraintId, Known, Mechanism, Registry, System};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 use solvability::{
     CARRIED_VECTORS, Choice, Compliance, NormWeights, Questions, ReactionVerdict, Solution,
     Verdict, analyse_known,
@@ -66,7 +66,7 @@ fn study(text: &str) -> Study {
         "scene.toml",
         text,
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     );
     read.unwrap_or_else(|e| panic!("{e}"))
 }

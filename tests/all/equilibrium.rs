@@ -9,7 +9,7 @@ use pfaff::dynamics::equilibrium::{
     Equilibrium, EquilibriumError, EquilibriumOptions, RestStability,
 };
 use pfaff::dynamics::linearise::LineariseOptions;
-use pfaff::{Overrides, Study, StudyError};
+use pfaff::{RunOptions, Study, StudyError};
 
 const G: f64 = 9.81;
 
@@ -18,7 +18,7 @@ fn study(text: &str) -> Study {
         "test.toml",
         text,
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     );
     study.unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
@@ -950,7 +950,7 @@ fn starts_elsewhere_are_checked() {
             "bar.toml",
             &text,
             &Registry::standard(),
-            &Overrides::default(),
+            &RunOptions::default(),
         )
     };
     // What is left out is as described; what misses a little is corrected, what misses much is not.

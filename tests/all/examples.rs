@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use dynamics::MotionOptions;
 use model::reaction::Reaction;
 use model::{Registry, System};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 /// Tolerance of the runs.
 const TIGHT: f64 = 1e-12;
@@ -48,7 +48,7 @@ fn page(name: &str) -> String {
 }
 
 fn study(name: &str, text: &str) -> Study {
-    Study::read(name, text, &Registry::standard(), &Overrides::default())
+    Study::read(name, text, &Registry::standard(), &RunOptions::default())
         .unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 

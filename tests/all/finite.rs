@@ -2,13 +2,13 @@
 
 use model::Registry;
 use pfaff::dynamics::MotionOptions;
-use pfaff::{Overrides, Study, StudyError};
+use pfaff::{RunOptions, Study, StudyError};
 use solvability::{Choice, NormWeights, Value};
 
 const GRAVITY: f64 = 9.81;
 
 fn read(text: &str) -> Study {
-    let found = Study::read("scene", text, &Registry::standard(), &Overrides::default());
+    let found = Study::read("scene", text, &Registry::standard(), &RunOptions::default());
     found.unwrap_or_else(|e| panic!("{e}"))
 }
 

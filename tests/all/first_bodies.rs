@@ -64,7 +64,7 @@ fn at_rest(scene: &str, joint: &str) -> [f64; 3] {
         "scene.toml",
         scene,
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     )
     .unwrap_or_else(|e| panic!("{scene}: {e}"));
     let groups = &study.prepared.mechanism.layout().groups;
@@ -269,7 +269,7 @@ force = [
         "scene.toml",
         scene,
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     )
     .unwrap_or_else(|e| panic!("{e}"));
     let rows = run(&study);

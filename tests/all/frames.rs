@@ -3,7 +3,7 @@
 
 use pfaff::model::Registry;
 use pfaff::report::documents::MotionDocument;
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 /// The centre of mass of each body in its frame: cranks, coupler, pendulum.
 type Centres = [[f64; 2]; 5];
@@ -143,7 +143,7 @@ fn moved(centres: &Centres) -> MotionDocument {
         "frames.toml",
         &text,
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     );
     let study = study.unwrap_or_else(|e| panic!("{e}\n{text}"));
     let options = study.options.clone().expect("it has a run");
@@ -268,7 +268,7 @@ fn refused(change: impl Fn(String) -> String) -> String {
         "frames.toml",
         &text,
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     );
     read.err().expect("it is refused").to_string()
 }

@@ -6,7 +6,7 @@ use linalg::{Matrix, PivotedQr};
 use model::space::{cross, difference};
 use model::{Mechanism, Registry, System};
 use pfaff::solvability::{FreeMotions, Freedoms};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 use super::examples::{files, read, scene};
 
@@ -25,7 +25,7 @@ const INDEPENDENT: f64 = 1e-3;
 
 fn study(name: &str) -> Study {
     let text = read(&scene(name));
-    let found = Study::read(name, &text, &Registry::standard(), &Overrides::default());
+    let found = Study::read(name, &text, &Registry::standard(), &RunOptions::default());
     found.unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
@@ -162,7 +162,7 @@ fn rounding_of_a_row_is_no_direction() {
                  body = [{{ name = \"b\", mass = 1.0, inertia = 0.5, position = [-1.5, 1.0], angle = {angle:?} }}]\n\
                  joint = [{{ name = \"j\", {joint} }}]\n"
             );
-            let study = Study::read("one", &text, &Registry::standard(), &Overrides::default());
+            let study = Study::read("one", &text, &Registry::standard(), &RunOptions::default());
             let study = study.unwrap_or_else(|e| panic!("{text}\n{e}"));
             assert!(are_a_basis(&study, &text) > 0);
         }
@@ -183,7 +183,7 @@ fn motions_of_random_mechanisms_satisfy_their_rows() {
             "random",
             &text,
             &Registry::standard(),
-            &Overrides::default(),
+            &RunOptions::default(),
         );
         // A few are too nearly redundant to have velocities in `f64`.
         let Ok(study) = study else {

@@ -131,7 +131,7 @@ fn description() -> Description {
 
 fn from_text() -> Study {
     let registry = Registry::standard();
-    let study = Study::read("scene.toml", SCENE, &registry, &Overrides::default());
+    let study = Study::read("scene.toml", SCENE, &registry, &RunOptions::default());
     study.unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -188,7 +188,8 @@ fn files_are_the_same() {
     };
     let text = format!("{SCENE}simulate = {{ t_end = 0.5 }}\n");
     let registry = Registry::standard();
-    let text = Study::read("scene.toml", &text, &registry, &Overrides::default()).expect("a scene");
+    let text =
+        Study::read("scene.toml", &text, &registry, &RunOptions::default()).expect("a scene");
     let code = Study::build(scene).expect("a scene");
     let folder = std::env::temp_dir().join(format!("pfaff-from-rust-{}", std::process::id()));
     let written = |study: &Study, name: &str| {

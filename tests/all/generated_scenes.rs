@@ -155,7 +155,7 @@ pub(crate) fn angle(n: usize, t: f64) -> f64 {
 #[test]
 fn loops_move_as_one_angle_does() {
     for n in [1, 3] {
-        let (registry, overrides) = (Registry::standard(), pfaff::Overrides::default());
+        let (registry, overrides) = (Registry::standard(), pfaff::RunOptions::default());
         let scene = text(&Order::of(Kind::NFourBar, n));
         let study = Study::read("generated.toml", &scene, &registry, &overrides).expect("starts");
         assert!(
@@ -199,7 +199,7 @@ fn loops_move_as_one_angle_does() {
 #[test]
 fn a_fleet_moves_as_its_robot() {
     let last = |scene: &str| {
-        let (registry, overrides) = (Registry::standard(), pfaff::Overrides::default());
+        let (registry, overrides) = (Registry::standard(), pfaff::RunOptions::default());
         let study = Study::read("generated.toml", scene, &registry, &overrides).expect("starts");
         let mut last = Vec::new();
         simulate(&study.prepared, &MotionOptions::to(2.5), |sample| {

@@ -2,7 +2,7 @@
 
 use joints::{KnifeEdge, Revolute, RevoluteAngleDrive, Velocity, plane::Direction};
 use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, Registry};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 use solvability::{Generic, analyse, generic, generic_with_verdicts, is_permanent};
 use tests::cranks::cranks;
 use tests::robot::{robot, steering};
@@ -198,7 +198,12 @@ fn time_moves_where_a_joint_depends_on_it() {
 
 /// Whether other configurations of a scene were found, and their results.
 fn elsewhere(scene: &str) -> Option<Generic> {
-    let study = Study::read("scene", scene, &Registry::standard(), &Overrides::default());
+    let study = Study::read(
+        "scene",
+        scene,
+        &Registry::standard(),
+        &RunOptions::default(),
+    );
     let study = study.unwrap_or_else(|e| panic!("{scene}\n{e}"));
     let start = study.analyse(0.0, None).expect("a rank");
     start.generic()

@@ -13,7 +13,7 @@ use model::{
     Body, BodyRef, ConstraintId, Description, Drive, Frame, Function, Joint, Known, Mechanism,
     StartError, StartOptions, System,
 };
-use pfaff::{Overrides, Study, StudyError};
+use pfaff::{RunOptions, Study, StudyError};
 use solvability::{
     Choice, Configuration, Equations, Group, GroupVerdict, LinearForm, NormWeights, RequestError,
     Term, analyse, analyse_known, judge_frames, judge_groups,
@@ -551,7 +551,8 @@ fn groups_of_a_study() {
         text += &format!("\n[[group]]\nname = \"{name}\"\nmembers = {members}\n");
     }
     let registry = model::Registry::standard();
-    let mut study = Study::read("robot", &text, &registry, &Overrides::default()).expect("a scene");
+    let mut study =
+        Study::read("robot", &text, &registry, &RunOptions::default()).expect("a scene");
     let combine = ["W3+W4", "W3.N + W4.N", "W3.T", "2*A - steering"].map(str::to_owned);
     let configuration = study.analyse(0.0, None).expect("judged");
     let groups = configuration.groups(&combine).expect("judged");

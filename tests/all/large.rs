@@ -10,13 +10,13 @@ use lab::comparators::equations::Equations;
 use lab::comparators::{Drift, MinimumNorm};
 use lab::generate::{Kind, Order};
 use model::{Mechanism, Registry, System};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 use solvability::{Verdict, analyse};
 
 use crate::generated_scenes::{angle, read, text};
 
 fn study(order: &Order) -> Study {
-    let overrides = Overrides::default();
+    let overrides = RunOptions::default();
     Study::read(
         "generated.toml",
         &text(order),

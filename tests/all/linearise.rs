@@ -3,7 +3,7 @@
 use linalg::{Matrix, eigenpairs};
 use model::Registry;
 use pfaff::dynamics::linearise::{Linearisation, LineariseError, LineariseOptions, Stability};
-use pfaff::{Overrides, Study, StudyError};
+use pfaff::{RunOptions, Study, StudyError};
 
 use crate::bicycle;
 
@@ -12,7 +12,7 @@ fn study(text: &str) -> Study {
         "test.toml",
         text,
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     );
     study.unwrap_or_else(|e| panic!("{e}"))
 }

@@ -5,7 +5,7 @@ use dynamics::{MotionError, MotionFault};
 use model::Registry;
 use pfaff::report::RunDocument;
 use pfaff::report::documents::MisfitDocument;
-use pfaff::{Overrides, Study, StudyError};
+use pfaff::{RunOptions, Study, StudyError};
 
 /// Length of the cranks, and by how much the third pin of the coupler is off (m).
 const LENGTH: f64 = 0.4;
@@ -59,9 +59,9 @@ fn cranks(stated: &str, motor: bool) -> String {
 
 /// A run on the rows that remain without the given ones, from 1.
 fn run(text: &str, drop: Option<&[usize]>) -> Result<RunDocument, StudyError> {
-    let overrides = Overrides {
+    let overrides = RunOptions {
         drop: drop.map(|rows| rows.iter().map(|row| row - 1).collect()),
-        ..Overrides::default()
+        ..RunOptions::default()
     };
     let study = Study::read("misfits.toml", text, &Registry::standard(), &overrides)?;
     let options = study.options.clone().expect("the scene says when it ends");

@@ -3,7 +3,7 @@
 
 use linalg::Matrix;
 use pfaff::model::Registry;
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 use serde_json::{json, to_value};
 
 /// A beam between two pins, which share the force along it as they like.
@@ -44,7 +44,7 @@ fn verdicts_and_motions_are_data() {
         "beam.toml",
         BEAM,
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     );
     let study = study.expect("a scene");
     let analysis = study.analyse(0.0, None).expect("analysed").analysis;

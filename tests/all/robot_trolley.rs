@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
 use model::{Function, Known, Mechanism, Reaction, Registry, StartOptions, System};
-use pfaff::{AssembledScene, Overrides};
+use pfaff::{AssembledScene, RunOptions};
 use serde::Deserialize;
 use solvability::{Analysis, Solvability, analyse, analyse_known};
 use tests::largest;
@@ -469,7 +469,7 @@ fn written_rows_are_as_accurate_as_steps() {
 fn a_row_of_a_table_is_the_state_that_is_analysed_there() {
     let text = include_str!("../../crates/suite/scenes/robot-trolley.toml");
     let assembled = AssembledScene::read("robot.toml", text, &Registry::standard());
-    let study = assembled.and_then(|scene| scene.prepare(&Overrides::default()));
+    let study = assembled.and_then(|scene| scene.prepare(&RunOptions::default()));
     let study = study.expect("the robot starts");
     let options = study.options.clone().expect("the scene states its end");
     let mut rows = Vec::new();

@@ -283,7 +283,7 @@ fn shift(k: usize, n: &mut Numbers) -> Vector {
 /// The rank of a robot, or why it does not move.
 fn rank(robot: &Robot) -> Result<[usize; 2], String> {
     let scene = AssembledScene::read("robot.toml", &robot.text, &Registry::standard());
-    let study = scene.and_then(|scene| scene.prepare(&Overrides::default()));
+    let study = scene.and_then(|scene| scene.prepare(&RunOptions::default()));
     let prepared = study.map_err(|e| e.to_string())?.prepared;
     Ok([prepared.decision.rank, prepared.mechanism.layout().rows()])
 }

@@ -8,7 +8,7 @@ mod scenes;
 use model::start::{HeldVelocity, StartError, scene_size};
 use model::{Registry, System};
 use nalgebra::{DMatrix, DVector};
-use pfaff::{AssembledScene, Overrides, Study, StudyError};
+use pfaff::{AssembledScene, RunOptions, Study, StudyError};
 use scenes::{NAMES, Sketch};
 use tests::numbers::Numbers;
 
@@ -356,7 +356,7 @@ fn a_thousand_random_starts() {
         let text = sketch.text();
         let held = held(&sketch, &bare);
         let context = || format!("scene {number}, {how:?}\n{text}");
-        let result = read(&text).prepare(&Overrides::default());
+        let result = read(&text).prepare(&RunOptions::default());
         let kind = match (truth(&bare, &held), &result) {
             (Truth::Border, _) => "too near to a limit",
             (Truth::Velocities { g, is_exact }, Ok(study)) => {
@@ -461,7 +461,7 @@ fn check_conflict(
         "{conflict}\n{context}"
     );
     let mended = without(sketch, &conflict.leave_out);
-    match read(&mended.text()).prepare(&Overrides::default()) {
+    match read(&mended.text()).prepare(&RunOptions::default()) {
         Ok(_) => {}
         Err(e) => assert!(
             sketch.is_singular && matches!(refusal(&mended, &e), Refusal::Later),
@@ -472,7 +472,7 @@ fn check_conflict(
         let allowed = sketch
             .text()
             .replace("[start]", "[start]\nallow_correction = true");
-        if let Err(e) = read(&allowed).prepare(&Overrides::default()) {
+        if let Err(e) = read(&allowed).prepare(&RunOptions::default()) {
             assert!(
                 sketch.is_singular && e.only_motion().is_some(),
                 "{e}\n{context}"
@@ -507,7 +507,7 @@ fn locked_parts() {
                 for (velocity, rate) in [(speed * size, 0.0), (0.0, speed), (speed * size, -speed)]
                 {
                     let error = read(&scene(velocity, rate))
-                        .prepare(&Overrides::default())
+                        .prepare(&RunOptions::default())
                         .err();
                     let said = error.expect("it is locked").to_string();
                     assert!(
@@ -519,7 +519,7 @@ fn locked_parts() {
             }
             for rounding in [0.0, 1e-17, -1e-20, 1e-300] {
                 let study =
-                    read(&scene(rounding * size, 0.3 * rounding)).prepare(&Overrides::default());
+                    read(&scene(rounding * size, 0.3 * rounding)).prepare(&RunOptions::default());
                 let study = study.unwrap_or_else(|e| panic!("{size:e}, {rounding:e}: {e}"));
                 assert!(
                     study
@@ -549,11 +549,11 @@ fn rounding_of_a_fast_wheel_is_no_velocity_of_a_locked_part() {
         )
     };
     for rate in [3.0, 3e3, 3e6] {
-        let study = read(&scene(rate, 1.5e-14 * rate)).prepare(&Overrides::default());
+        let study = read(&scene(rate, 1.5e-14 * rate)).prepare(&RunOptions::default());
         let v = study.unwrap_or_else(|e| panic!("{rate}: {e}")).prepared.v;
         assert!(v[5].abs() <= 1e-16 * rate, "{v:?}");
         let error = read(&scene(rate, 1e-5 * rate))
-            .prepare(&Overrides::default())
+            .prepare(&RunOptions::default())
             .err();
         let said = error.expect("it is locked").to_string();
         assert!(said.contains("of body `lever` is given as"), "{said}");

@@ -16,7 +16,7 @@ use lab::generate::n_four_bar::acceleration;
 use lab::generate::{Kind, Order};
 use pfaff::dynamics::{Method, MotionOptions, simulate};
 use pfaff::model::Registry;
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 const N: usize = 40;
 const T_END: f64 = 20.0;
@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut text = Vec::new();
     Order::of(Kind::NFourBar, N).generate()?.write(&mut text)?;
     let text = String::from_utf8(text)?;
-    let study = Study::read("a02", &text, &Registry::standard(), &Overrides::default())?;
+    let study = Study::read("a02", &text, &Registry::standard(), &RunOptions::default())?;
     let tops = tops();
     println!("method    tolerance  largest error     time  evaluations");
     for method in [Method::Dop853, Method::Dopri5] {

@@ -11,7 +11,7 @@ use std::time::Instant;
 use lab::generate::n_four_bar::acceleration;
 use lab::generate::{Kind, Order};
 use pfaff::model::Registry;
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 /// Last time (s), and number of steps of the reference.
 const T_END: f64 = 5.0;
@@ -40,11 +40,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             for run in 0..RUNS {
                 let share = f64::from(run) / f64::from(RUNS - 1) - 0.5;
                 let rtol = tolerance * (1.0 + 2.0 * SPREAD * share);
-                let overrides = Overrides {
+                let overrides = RunOptions {
                     rtol: Some(rtol),
                     atol: Some(rtol),
                     t_end: Some(T_END),
-                    ..Overrides::default()
+                    ..RunOptions::default()
                 };
                 let study = Study::read("n-four-bar", &text, &Registry::standard(), &overrides)?;
                 rows = study.prepared.decision.rank;

@@ -9,7 +9,7 @@ use pfaff::report::CurveName;
 use pfaff::work_precision::{
     Expected, Kind, Observation, Reference, Rival, RivalFault, RivalRun, Subject,
 };
-use pfaff::{Overrides, Study, StudyError};
+use pfaff::{RunOptions, Study, StudyError};
 use suite::{Case, Quantity};
 
 use crate::comparators::{Comparator, Drift, Fault, Formulation, Method, run_within};
@@ -38,7 +38,7 @@ pub fn ways() -> Vec<Comparator> {
 /// As [`Study::read`].
 pub fn of_case(case: &Case) -> Result<Subject, StudyError> {
     let registry = Registry::standard();
-    let study = Study::read(case.name, case.scene, &registry, &Overrides::default())?;
+    let study = Study::read(case.name, case.scene, &registry, &RunOptions::default())?;
     let known = case.reference();
     let instants = known.instants.iter().map(|instant| {
         let mut values: [Vec<(usize, f64)>; Kind::COUNT] = Default::default();

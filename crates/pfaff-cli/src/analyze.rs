@@ -14,11 +14,11 @@ mod text;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use pfaff::model::System;
 use pfaff::report::AnalysisDocument;
-use pfaff::{ConfigurationAnalysis, Overrides, Study};
+use pfaff::{ConfigurationAnalysis, RunOptions, Study};
 
 use crate::args::Analyze;
 use crate::console::Console;
-use crate::input::{Source, rows_from_zero};
+use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome};
 
@@ -30,14 +30,14 @@ pub(crate) fn run(arguments: &Analyze, console: &Console<'_>) -> Outcome {
         )));
     }
     Interrupt::ends_at_once()?;
-    let drop = rows_from_zero(arguments.drop.as_deref())?;
+    let drop = arguments.drop.clone();
     let source =
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     arguments.resources.apply(console);
     let assembled = arguments.resources.assembled(&source)?;
-    let overrides = Overrides {
+    let overrides = RunOptions {
         drop: drop.clone(),
-        ..Overrides::default()
+        ..RunOptions::default()
     };
     let error = match assembled.prepare(&overrides) {
         Ok(study) => return of_study(arguments, &source, &study, drop.as_deref(), console),

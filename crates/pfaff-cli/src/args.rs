@@ -9,19 +9,18 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use pfaff::Overrides;
-use pfaff::dynamics::{Method, Stabilisation};
+use pfaff::RunOptions;
+use pfaff::command::named;
 use pfaff::import::Base;
+use pfaff::run_options::row;
 use pfaff::sweep::{Axis, Shard};
 use pfaff::tolerance::Variation;
 
 pub(crate) use known::{Known, Settings, in_si};
-pub use values::named;
-use values::{chosen, joint_value, no_formulation};
+use values::joint_value;
 
 use crate::ask::Asked;
-use crate::input::rows_from_zero;
-use crate::output::{Answer, Failure};
+use crate::output::Answer;
 use crate::resources::{Memory, Resources};
 use crate::template::Template;
 
@@ -46,9 +45,6 @@ pub(crate) enum Command {
     /// Motion and reactions, written into a directory with a report for any browser
     #[command(after_help = examples::SIMULATE)]
     Simulate(Simulate),
-    /// What a run of the scene computes and omits, and why
-    #[command(after_help = examples::PLAN)]
-    Plan(Plan),
     /// Many runs with other numbers in the scene: parallel, resumable, in shards
     #[command(after_help = examples::SWEEP)]
     Sweep(Sweep),
@@ -58,9 +54,6 @@ pub(crate) enum Command {
     /// Error versus run time, for every method and tolerance
     #[command(after_help = examples::WORK_PRECISION)]
     WorkPrecision(WorkPrecision),
-    /// Read and assemble only: report every error of the file, with its place
-    #[command(after_help = examples::CHECK)]
-    Check(Check),
     #[command(flatten)]
     Ask(Asked),
     /// Create a scene from a template; without a name, list the templates
@@ -72,9 +65,6 @@ pub(crate) enum Command {
     /// Draw the assembled start, with joints marked by their verdicts
     #[command(after_help = examples::VIEW)]
     View(View),
-    /// Compare two scenes: ranks, verdicts, dependencies, motion
-    #[command(after_help = examples::DIFF)]
-    Diff(Diff),
     /// What the code of an error means, and what to do; without a code, list all
     #[command(after_help = examples::EXPLAIN)]
     Explain(Explain),
@@ -87,12 +77,6 @@ pub(crate) enum Command {
     /// The manual page, on standard output
     #[command(after_help = examples::MAN)]
     Man(Man),
-    /// Part of the laboratory
-    #[command(hide = true)]
-    Stress(LaboratoryCommand),
-    /// Part of the laboratory
-    #[command(hide = true)]
-    Generate(LaboratoryCommand),
 }
 
 impl Command {
@@ -102,20 +86,13 @@ impl Command {
             Self::Ask(asked) => return asked.answer(),
             Self::Analyze(Analyze { json, .. })
             | Self::Simulate(Simulate { json, .. })
-            | Self::Plan(Plan { json, .. })
             | Self::Sweep(Sweep { json, .. })
             | Self::Tolerance(Tolerance { json, .. })
             | Self::WorkPrecision(WorkPrecision { json, .. })
-            | Self::Check(Check { json, .. })
             | Self::New(New { json, .. })
             | Self::Import(Import { json, .. })
             | Self::View(View { json, .. })
-            | Self::Diff(Diff { json, .. })
             | Self::Explain(Explain { json, .. }) => *json,
-            Self::Stress(LaboratoryCommand { arguments })
-            | Self::Generate(LaboratoryCommand { arguments }) => {
-                arguments.iter().any(|argument| argument == "--json")
-            }
             Self::Schema | Self::Completions(_) | Self::Man(_) => false,
         };
         if json { Answer::Json } else { Answer::Words }
@@ -135,7 +112,7 @@ pub(crate) struct Analyze {
     )]
     pub(crate) at_time: f64,
     /// Rows to take as the dependent ones, counted from 1
-    #[arg(long, value_name = "ROWS", value_delimiter = ',')]
+    #[arg(long, value_name = "ROWS", value_delimiter = ',', value_parser = row)]
     pub(crate) drop: Option<Vec<usize>>,
     /// A sum of components to judge, as "W3.N + W4.N"; may be given several times
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
@@ -182,23 +159,8 @@ pub(crate) struct Simulate {
     pub(crate) scene: PathBuf,
     #[command(flatten)]
     pub(crate) place: Place,
-    /// Last time (s)
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    pub(crate) t_end: Option<f64>,
-    /// Relative tolerance
-    #[arg(long, value_name = "R", allow_hyphen_values = true)]
-    pub(crate) rtol: Option<f64>,
-    /// Absolute tolerance
-    #[arg(long, value_name = "A", allow_hyphen_values = true)]
-    pub(crate) atol: Option<f64>,
-    /// Largest step (s)
-    #[arg(long, value_name = "H", allow_hyphen_values = true)]
-    pub(crate) max_step: Option<f64>,
-    /// Most steps, accepted and rejected, after which the run stops
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
-    pub(crate) max_steps: Option<u64>,
     #[command(flatten)]
-    pub(crate) way: MotionArguments,
+    pub(crate) run: RunOptions,
     /// Choose the numbers of choice.csv (choice_2.csv, …): as of analyze; repeatable
     #[arg(long, value_name = "CHOICE")]
     pub(crate) choose: Vec<String>,
@@ -207,27 +169,6 @@ pub(crate) struct Simulate {
     #[command(flatten)]
     pub(crate) resources: Resources,
     /// The summary as one JSON document on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Args)]
-pub(crate) struct Plan {
-    /// Scene file, or - for standard input
-    pub(crate) scene: PathBuf,
-    /// Also say how the runs of a sweep with these values are evaluated: as of `sweep`
-    #[arg(long, value_name = "KEY=VALUES")]
-    pub(crate) vary: Vec<Axis>,
-    /// Last time (s)
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    pub(crate) t_end: Option<f64>,
-    #[command(flatten)]
-    pub(crate) way: MotionArguments,
-    #[command(flatten)]
-    pub(crate) known: Known,
-    #[command(flatten)]
-    pub(crate) resources: Resources,
-    /// The plan as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -241,35 +182,6 @@ pub(crate) struct Place {
     /// Also replace files there that pfaff has not written
     #[arg(long)]
     pub(crate) force: bool,
-}
-
-/// How the motion is computed.
-#[derive(Args)]
-pub(crate) struct MotionArguments {
-    /// Integrator
-    #[arg(long, value_name = "M", value_parser = chosen("method", Method::ALL, Method::name))]
-    pub(crate) method: Option<Method>,
-    /// Removed: every run keeps independent rows
-    #[arg(long, value_name = "F", value_parser = no_formulation, hide = true)]
-    pub(crate) formulation: Option<String>,
-    /// Treatment of drift
-    #[arg(long, value_name = "S", value_parser = chosen("stabilisation", Stabilisation::ALL, Stabilisation::name))]
-    pub(crate) stabilisation: Option<Stabilisation>,
-    /// Rows to eliminate, counted from 1
-    #[arg(long, value_name = "ROWS", value_delimiter = ',')]
-    pub(crate) drop: Option<Vec<usize>>,
-}
-
-impl MotionArguments {
-    /// What it changes of the options of a scene.
-    pub(crate) fn overrides(&self) -> Result<Overrides, Failure> {
-        Ok(Overrides {
-            method: self.method,
-            stabilisation: self.stabilisation,
-            drop: rows_from_zero(self.drop.as_deref())?,
-            ..Overrides::default()
-        })
-    }
 }
 
 #[derive(Args)]
@@ -362,29 +274,6 @@ pub(crate) struct WorkPrecision {
     pub(crate) json: bool,
 }
 
-/// A command of the laboratory; its arguments are not read here.
-#[derive(Args)]
-pub(crate) struct LaboratoryCommand {
-    #[arg(num_args = 0.., allow_hyphen_values = true, trailing_var_arg = true)]
-    pub(crate) arguments: Vec<String>,
-}
-
-#[derive(Args)]
-pub(crate) struct Check {
-    /// Scene file, or - for standard input
-    pub(crate) scene: PathBuf,
-    /// Check again whenever the file changes, until Ctrl-C
-    #[arg(long, conflicts_with = "json")]
-    pub(crate) watch: bool,
-    #[command(flatten)]
-    pub(crate) known: Known,
-    #[command(flatten)]
-    pub(crate) resources: Resources,
-    /// The errors, or a summary of the scene, as one JSON document on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
 #[derive(Args)]
 pub(crate) struct New {
     /// The template; without it, list all templates
@@ -463,21 +352,6 @@ pub(crate) struct View {
     #[command(flatten)]
     pub(crate) resources: Resources,
     /// The written file as one JSON document on standard output; opens nothing
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Args)]
-pub(crate) struct Diff {
-    /// Scene file, or - for standard input
-    pub(crate) a: PathBuf,
-    /// The other scene file
-    pub(crate) b: PathBuf,
-    #[command(flatten)]
-    pub(crate) known: Known,
-    #[command(flatten)]
-    pub(crate) resources: Resources,
-    /// The differences as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }

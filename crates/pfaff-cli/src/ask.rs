@@ -18,6 +18,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{Answer, Failure, Files, Outcome, directory};
 use crate::resources::{Resources, Stage};
 use crate::simulate::origin;
+use crate::watch;
 
 /// A question that is asked on the command line.
 pub(crate) struct Asked {
@@ -42,6 +43,9 @@ struct OutputOptions {
 
 #[derive(Args)]
 struct CommonOptions {
+    /// Ask again whenever a file changes, until Ctrl-C
+    #[arg(long, conflicts_with = "json")]
+    watch: bool,
     #[command(flatten)]
     known: Known,
     #[command(flatten)]
@@ -133,7 +137,20 @@ impl Asked {
                 "standard input is one scene; give the other one as a file".to_owned(),
             ));
         }
+        self.of.resources.apply(console);
+        if self.of.watch {
+            return watch::run(&self.scenes, console, || Ok(self.asked(console)?.0));
+        }
         Interrupt::ends_at_once()?;
+        let (text, ending) = self.asked(console)?;
+        match ending {
+            Ending::Complete => console.print(&text),
+            Ending::Partial { .. } => Err(console.incomplete(&text)),
+        }
+    }
+
+    /// The answer as text, after its files are written.
+    fn asked(&self, console: &Console<'_>) -> Result<(String, Ending), Failure> {
         let CommonOptions {
             known, resources, ..
         } = &self.of;
@@ -160,7 +177,7 @@ impl Asked {
             origin: &origin(),
             ..Control::quiet()
         };
-        resources.apply(console);
+        let scenes: Vec<_> = scenes.iter().collect();
         let answer = self.question.as_question().ask(&scenes, &control)?;
         drop(stage);
         let mut written = String::new();
@@ -180,10 +197,7 @@ impl Asked {
             Answer::Json => answer.json()?,
             Answer::Words => words::text(&answer.words()) + &written,
         };
-        match answer.ending() {
-            Ending::Complete => console.print(&text),
-            Ending::Partial { .. } => Err(console.incomplete(&text)),
-        }
+        Ok((text, answer.ending()))
     }
 }
 

@@ -7,7 +7,7 @@ use pfaff::model::{Registry, Tolerance};
 use pfaff::scene::{KeyError, Template, nearest};
 use pfaff::source;
 use pfaff::start::Start;
-use pfaff::{AssembledScene, Overrides, Study, StudyError};
+use pfaff::{AssembledScene, RunOptions, Study, StudyError};
 
 use crate::args::{Known, Settings};
 use crate::console::Console;
@@ -61,7 +61,7 @@ impl<'r> Source<'r> {
     /// Reads and assembles the scene, if the limits of the machine allow it.
     pub(crate) fn study(
         &self,
-        overrides: &Overrides,
+        overrides: &RunOptions,
         resources: Resources,
         console: &Console<'_>,
     ) -> Result<Study, Failure> {
@@ -75,7 +75,7 @@ impl<'r> Source<'r> {
     pub(crate) fn prepare(
         &self,
         assembled: AssembledScene,
-        overrides: &Overrides,
+        overrides: &RunOptions,
     ) -> Result<Study, StudyError> {
         let _said = Stage::begin(self.text.len(), "assembling and choosing rows");
         assembled.prepare(overrides)

@@ -3,10 +3,8 @@
 mod analyze;
 mod args;
 mod ask;
-mod check;
 mod choice;
 pub mod console;
-mod diff;
 mod explain;
 mod import;
 pub mod input;
@@ -15,10 +13,8 @@ mod manual;
 mod new;
 pub mod output;
 mod picture;
-mod plan;
 mod resources;
 mod simulate;
-mod start;
 mod sweep;
 mod template;
 mod tolerance;
@@ -34,11 +30,11 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use pfaff::model::Registry;
 use pfaff::scene::nearest;
 
-pub use args::named;
-use args::{Arguments, Command, LaboratoryCommand};
+use args::{Arguments, Command};
 use console::Console;
 pub use console::Stream;
-use output::{Answer, Failure, Outcome};
+use output::{Answer, Outcome};
+pub use pfaff::command::named;
 
 /// Runs one command: `arguments` begin with the name of the program, `registry` contains the joints
 /// and forces that scenes can use.
@@ -150,30 +146,16 @@ impl CommandLine for Arguments {
             Command::Ask(a) => a.run(console),
             Command::Analyze(a) => analyze::run(a, console),
             Command::Simulate(a) => simulate::run(a, console),
-            Command::Plan(a) => plan::run(a, console),
             Command::Sweep(a) => sweep::run(a, console),
             Command::Tolerance(a) => tolerance::run(a, console),
             Command::WorkPrecision(a) => work_precision::run(a, console),
-            Command::Check(a) => check::run(a, console),
             Command::New(a) => new::run(a, console),
             Command::Import(a) => import::run(a, console),
             Command::View(a) => view::run(a, console),
-            Command::Diff(a) => diff::run(a, console),
             Command::Explain(a) => explain::run(a, console),
             Command::Schema => manual::schema(console),
             Command::Completions(a) => manual::completions(a, console),
             Command::Man(a) => manual::page(a, console),
-            Command::Stress(a) => elsewhere("stress", a),
-            Command::Generate(a) => elsewhere("generate", a),
         }
     }
-}
-
-/// Reports how a command of the laboratory is called.
-fn elsewhere(name: &str, LaboratoryCommand { arguments }: &LaboratoryCommand) -> Outcome {
-    let arguments = arguments.join(" ");
-    Err(Failure::input(format!(
-        "`{name}` is a command of the laboratory; in the repository of pfaff: \
-         cargo run --release -p lab -- {name} {arguments}"
-    )))
 }

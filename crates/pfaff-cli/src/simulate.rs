@@ -11,14 +11,14 @@ use pfaff::study::FAMILY;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::report::{Origin, OutputDirectory, Provenance, RunDocument};
-use pfaff::{Overrides, StudyError};
+use pfaff::{RunOptions, StudyError};
 
 use crate::args::Simulate;
 use crate::choice::choices;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::{BY_REQUEST, Interrupt};
-use crate::output::{Failure, Outcome, beside, count, directory, json, wrapped};
+use crate::output::{Outcome, beside, count, directory, json, wrapped};
 use crate::work_precision::provenance;
 
 /// Largest error of the energy balance without a warning, as a fraction of the largest kinetic
@@ -33,8 +33,11 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
     let source =
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
-    let overrides = overrides(arguments)?;
-    let mut study = source.study(&overrides, arguments.resources, console)?;
+    let run = RunOptions {
+        threads: arguments.resources.threads,
+        ..arguments.run.clone()
+    };
+    let mut study = source.study(&run, arguments.resources, console)?;
     let rows = study.prepared.mechanism.layout().rows();
     let reaction = |name: &str| study.reaction(name);
     study.choices = choices(&arguments.choose, &source, (rows, &reaction))?;
@@ -110,18 +113,6 @@ pub(crate) fn origin() -> Origin {
         versions, command, ..
     } = provenance();
     Origin { command, versions }
-}
-
-fn overrides(arguments: &Simulate) -> Result<Overrides, Failure> {
-    Ok(Overrides {
-        t_end: arguments.t_end,
-        rtol: arguments.rtol,
-        atol: arguments.atol,
-        max_step: arguments.max_step,
-        max_steps: arguments.max_steps,
-        threads: arguments.resources.threads,
-        ..arguments.way.overrides()?
-    })
 }
 
 /// The summary in words.

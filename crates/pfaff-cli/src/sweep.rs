@@ -16,7 +16,7 @@ use crate::args;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, Shortfall, beside, count, json_or, wrapped};
+use crate::output::{Failure, Outcome, Refusal, Shortfall, beside, count, json_or, wrapped};
 use crate::resources::start_threads;
 use crate::simulate::TRUSTED_BALANCE;
 
@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
         )?,
         None => {
             let merged = merge(&arguments.merge, &arguments.place.out);
-            let Merged { document, shards } = merged.map_err(|e| failure(&e))?;
+            let Merged { document, shards } = merged.map_err(Refusal::from)?;
             let ending = if document.partial {
                 Ending::Missing { shards }
             } else {
@@ -110,7 +110,7 @@ pub(crate) fn read<'s>(source: &'s Source, axes: Vec<Axis>) -> Result<Sweep<'s>,
     let sweep = Sweep::read(&source.name, &source.text, source.registry, axes);
     sweep.map_err(|e| match e {
         SweepError::Study(e) => source.failure(e),
-        other => failure(&other),
+        other => Refusal::from(other).into(),
     })
 }
 
@@ -176,7 +176,7 @@ fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Endi
             },
         );
     bar.finish_and_clear();
-    let outcome = outcome.map_err(|e| failure(&e))?;
+    let outcome = outcome.map_err(Refusal::from)?;
     let ending = if interrupted() {
         Ending::Interrupted
     } else if outcome.document.partial {
@@ -185,15 +185,6 @@ fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Endi
         Ending::Whole(outcome.tables)
     };
     Ok((outcome.document, ending))
-}
-
-fn failure(error: &SweepError) -> Failure {
-    let failure = if error.is_input() {
-        Failure::input(error.to_string())
-    } else {
-        Failure::stopped(error.to_string())
-    };
-    failure.coded(error.code())
 }
 
 /// Most gaps and shards that are named.

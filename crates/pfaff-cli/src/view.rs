@@ -5,7 +5,10 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use pfaff::ConfigurationAnalysis;
 use pfaff::model::System;
+use pfaff::question::Control;
+use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::ViewDocument;
 use pfaff::report::figures::{Labels, Marking, labelled_mechanism, png};
 use pfaff::report::{Frame, OutputDirectory, Recording, Replaces, RunPage, Shows, run_page};
@@ -17,7 +20,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, count, write_file};
 use crate::picture::{can_paint, missing, unpainted};
 use crate::simulate::origin;
-use crate::start::Start;
+use pfaff::start::document_of;
 
 pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
@@ -35,10 +38,13 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     // Before anything is computed, too.
     OutputDirectory::around(&path, replaces)?;
     arguments.resources.apply(console);
-    let start = Start::of(&source, arguments.resources)?;
+    let scene = source.start(arguments.resources);
+    let judged = scene.judged(&Control::quiet())?;
+    let start = judged.configuration().map_err(|e| scene.refusal(e))?;
+    let document = document_of(&start).map_err(|e| scene.refusal(e))?;
     let (mut pixels, mut boxes) = (None, String::new());
     let content = match form {
-        Form::Page => page(&start).into_bytes(),
+        Form::Page => page(&start, &document).into_bytes(),
         Form::Svg => figure(&start)?.into_bytes(),
         Form::Png => {
             let painted = png(&figure(&start)?, arguments.scale).map_err(|e| unpainted(&e))?;
@@ -47,13 +53,12 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
         }
     };
     write_file(&path, &content, replaces)?;
-    let open = start
-        .document
+    let open = document
         .reactions
         .iter()
         .filter(|r| r.wrench.verdict == "not_unique")
         .count();
-    let fragile = start.document.fragile_reactions().count();
+    let fragile = document.fragile_reactions().count();
     if arguments.json {
         return console.document(&ViewDocument {
             ok: true,
@@ -62,11 +67,11 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
             bytes: content.len(),
             pixels,
             boxes: &boxes,
-            reactions: start.reactions.len(),
+            reactions: start.analysis.reactions.len(),
             not_unique: open,
             fragile,
-            mobility: start.document.ranks.mobility,
-            mobility_without_drives: start.document.ranks.freedoms.mobility_without_drives(),
+            mobility: document.ranks.mobility,
+            mobility_without_drives: document.ranks.freedoms.mobility_without_drives(),
         });
     }
     let opened = if arguments.no_open {
@@ -75,7 +80,7 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
         let refused = show(&path).err();
         refused.map_or_else(String::new, |reason| format!("not opened: {reason}\n"))
     };
-    let whole = start.document.fragile_reactions();
+    let whole = document.fragile_reactions();
     let whole = whole.filter(|r| r.wrench.verdict == "unique").count();
     let fragile = match (whole, fragile - whole) {
         (0, 0) => String::new(),
@@ -87,32 +92,32 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     console.print(&format!(
         "{}: {}, {open} not unique{fragile}; {}\nwritten to {}\n{boxes}{opened}",
         start.scene.name(),
-        count(start.reactions.len(), "joint or drive", "joints and drives"),
-        start
-            .document
-            .ranks
-            .freedoms
-            .summary(start.document.ranks.mobility),
+        count(
+            start.analysis.reactions.len(),
+            "joint or drive",
+            "joints and drives"
+        ),
+        document.ranks.freedoms.summary(document.ranks.mobility),
         path.display()
     ))
 }
 
 /// The picture of the start as SVG.
-fn figure(start: &Start) -> Result<String, Failure> {
-    let marking = Marking::Verdicts(&start.reactions);
+fn figure(start: &ConfigurationAnalysis<'_>) -> Result<String, Failure> {
+    let marking = Marking::Verdicts(&start.analysis.reactions);
     let labels = Labels::NamesAndRows;
-    labelled_mechanism(&start.mechanism, 0.0, &start.q, marking, labels)
+    labelled_mechanism(start.mechanism, 0.0, &start.state.q, marking, labels)
         .map_err(|e| Failure::stopped(e.to_string()))
 }
 
 /// The page of a run that consists of the start only.
-fn page(start: &Start) -> String {
+fn page(start: &ConfigurationAnalysis<'_>, document: &AnalysisDocument) -> String {
     let mut recording = Recording::new(0.0, 1.0, 1);
-    let frame = Frame::at_rest(0.0, &start.q, start.mechanism.layout().n_v);
+    let frame = Frame::at_rest(0.0, &start.state.q, start.mechanism.layout().n_v);
     recording.frames.push(frame);
     run_page(&RunPage {
-        mechanism: &start.mechanism,
-        analysis: Some(&start.document),
+        mechanism: start.mechanism,
+        analysis: Some(document),
         hints: &[],
         shows: Shows::Start,
         stretches: None,
@@ -120,7 +125,7 @@ fn page(start: &Start) -> String {
         comparisons: &[],
         drives: &[],
         origin: &origin(),
-        scene: pfaff::written_scene(&start.scene),
+        scene: pfaff::written_scene(start.scene),
         options: &[],
         left_out: &[],
         work_precision: None,

@@ -1,73 +1,78 @@
-//! `pfaff check --watch`: checks again whenever the file changes.
+//! Questions that are asked again whenever a file changes.
 
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-use crate::args::Check;
-use crate::check::Checked;
 use crate::console::Console;
-use crate::input::{Source, unreadable};
+use crate::input::unreadable;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, visible};
 
-/// Time between two checks of the file.
+/// Time between two looks at the files.
 const PAUSE: Duration = Duration::from_millis(500);
 
-/// Number of checks after which a missing file is reported: editors replace a file by another one.
+/// Number of looks after which a missing file is reported: editors replace a file by another one.
 const PATIENCE: usize = 3;
 
-pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
-    let path = &arguments.scene;
-    if path.as_os_str() == "-" {
+/// Prints the answer, and again whenever one of the files has changed.
+pub(crate) fn run(
+    paths: &[PathBuf],
+    console: &Console<'_>,
+    ask: impl Fn() -> Result<String, Failure>,
+) -> Outcome {
+    if paths.iter().any(|path| path.as_os_str() == "-") {
         return Err(Failure::input(
             "--watch looks at a file again and again; standard input comes once".to_owned(),
         ));
     }
     // A file that does not exist at the beginning has a wrong name.
-    let mut seen = Stamp::of(path).map_err(|e| unreadable(path, &e))?;
+    let mut seen = stamps(paths)?;
+    let named: Vec<String> = paths
+        .iter()
+        .map(|path| path.display().to_string())
+        .collect();
+    let heading = format!("──── {} ────\n", named.join(" "));
+    let heading = visible(&heading);
     Interrupt::ends_well()?;
-    arguments.resources.apply(console);
     loop {
-        // Its colours are ours.
-        let verdict = verdict(arguments, console);
-        let heading = format!("──── {} ────\n", path.display());
-        console.write(|out| write!(out, "{}{verdict}", visible(&heading)))?;
-        seen = changed(path, seen, console)?;
+        // The colours of a refusal are ours.
+        let answer = ask().map(|text| visible(&text).into_owned());
+        let answer = answer.unwrap_or_else(|failure| failure.words(console.is_coloured()));
+        console.write(|out| write!(out, "{heading}{answer}"))?;
+        seen = changed(paths, seen, |failure| {
+            console.print(&format!("{heading}{}", failure.words(false)))
+        })?;
     }
 }
 
-/// The text of a check, whether the scene is right or wrong.
-fn verdict(arguments: &Check, console: &Console<'_>) -> String {
-    let checked = Source::read(&arguments.scene, &arguments.known.settings, console)
-        .map(|source| source.known(&arguments.known))
-        .and_then(|source| Ok(Checked::of(&source, arguments.resources)?.describe()))
-        .map(|text| visible(&text).into_owned());
-    checked.unwrap_or_else(|failure| failure.words(console.is_coloured()))
-}
-
-/// Waits until the file differs from `seen`.
-fn changed(path: &Path, seen: Stamp, console: &Console<'_>) -> Result<Stamp, Failure> {
+/// Waits until a file differs from what was seen; tells of one that is missing.
+fn changed(
+    paths: &[PathBuf],
+    seen: Vec<Stamp>,
+    tell: impl Fn(Failure) -> Outcome,
+) -> Result<Vec<Stamp>, Failure> {
     let mut missing = 0;
     loop {
         sleep(PAUSE);
-        match Stamp::of(path) {
-            Ok(stamp) if stamp != seen || missing >= PATIENCE => return Ok(stamp),
+        match stamps(paths) {
+            Ok(stamps) if stamps != seen || missing >= PATIENCE => return Ok(stamps),
             Ok(_) => missing = 0,
-            Err(e) => {
+            Err(failure) => {
                 missing += 1;
                 if missing == PATIENCE {
-                    console.print(&format!(
-                        "──── {} ────\n{}",
-                        path.display(),
-                        unreadable(path, &e).words(false)
-                    ))?;
+                    tell(failure)?;
                 }
             }
         }
     }
+}
+
+fn stamps(paths: &[PathBuf]) -> Result<Vec<Stamp>, Failure> {
+    let stamp = |path: &PathBuf| Stamp::of(path).map_err(|e| unreadable(path, &e));
+    paths.iter().map(stamp).collect()
 }
 
 /// Properties that change with a file.

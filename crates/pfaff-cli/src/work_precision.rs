@@ -59,7 +59,7 @@ pub fn subject(path: &Path, console: &Console<'_>) -> Result<Subject, Failure> {
 /// The scene of a file, with other numbers in it.
 fn read(path: &Path, settings: &Settings, console: &Console<'_>) -> Result<Subject, Failure> {
     let source = Source::read(path, settings, console)?;
-    let study = source.study(&pfaff::Overrides::default(), Resources::default(), console)?;
+    let study = source.study(&pfaff::RunOptions::default(), Resources::default(), console)?;
     Subject::of_study(study).map_err(|e| source.failure(e))
 }
 

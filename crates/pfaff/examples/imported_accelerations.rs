@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             Err(_) if number > 0 => return Ok(()),
             Err(refusal) => return Err(format!("{:?}", refusal.diagnostics).into()),
         };
-        let study = Study::read(&file, &imported.scene, &registry, &Overrides::default());
+        let study = Study::read(&file, &imported.scene, &registry, &RunOptions::default());
         let study = study.map_err(|e| format!("keyframe {number}: {e}\n{}", imported.scene))?;
         let names: Vec<String> = study
             .prepared

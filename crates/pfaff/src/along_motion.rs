@@ -102,7 +102,7 @@ impl Study {
     ///
     /// ```
     /// use pfaff::model::Registry;
-    /// use pfaff::{Overrides, Study};
+    /// use pfaff::{RunOptions, Study};
     ///
     /// // A falling pendulum has no singular configurations.
     /// let scene = r#"
@@ -111,7 +111,7 @@ impl Study {
     /// joint = [{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [0.0, 0.0] }]
     /// "#;
     /// let study = Study::read("pendulum.toml", scene, &Registry::standard(),
-    /// &Overrides::default())?; let along_motion = study.verdicts_along_motion(Some(1.0), |_| {})?;
+    /// &RunOptions::default())?; let along_motion = study.verdicts_along_motion(Some(1.0), |_| {})?;
     /// assert_eq!((along_motion.to, along_motion.stopped.is_none()), (1.0, true));
     /// assert_eq!(along_motion.along.generic.redundancy, 0);
     /// assert!(along_motion.along.verdicts.reactions[0].whole.of_run().is_unique());

@@ -10,7 +10,8 @@ use solvability::{ConstraintLevel, State};
 
 use crate::configuration::{AskedRows, ConfigurationAnalysis};
 use crate::error::StudyError;
-use crate::study::{Overrides, Study};
+use crate::run_options::RunOptions;
+use crate::study::Study;
 use crate::within;
 
 /// A scene whose mechanism has been built.
@@ -105,7 +106,7 @@ impl AssembledScene {
     /// - [`StudyError::SingularStart`]: there is a start, but no motion begins with its velocities.
     /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen; or the options of the
     ///   run are invalid, with their place if they come from the scene.
-    pub fn prepare(self, overrides: &Overrides) -> Result<Study, StudyError> {
+    pub fn prepare(self, overrides: &RunOptions) -> Result<Study, StudyError> {
         self.prepare_after(overrides, None)
     }
 
@@ -113,7 +114,7 @@ impl AssembledScene {
     /// constraints is taken from there.
     pub(crate) fn prepare_after(
         self,
-        overrides: &Overrides,
+        overrides: &RunOptions,
         other: Option<&Prepared>,
     ) -> Result<Study, StudyError> {
         let Self { scene, mechanism } = self;
@@ -124,7 +125,7 @@ impl AssembledScene {
             (None, None) => RowChoice::Automatic,
         };
         if let Some(Err(e)) = options.as_ref().map(MotionOptions::check) {
-            return Err(if *overrides == Overrides::default() {
+            return Err(if *overrides == RunOptions::default() {
                 refused(&scene, e)
             } else {
                 e.into()
@@ -251,7 +252,7 @@ fn leaves_no_motion(e: &MotionError) -> bool {
 }
 
 /// The options of the scene, with those of the caller taking precedence.
-pub(crate) fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
+pub(crate) fn options(scene: &Scene, overrides: &RunOptions) -> Option<MotionOptions> {
     let mut options = match (&scene.simulate, overrides.t_end) {
         (Some(options), _) => options.clone(),
         (None, Some(t_end)) => MotionOptions::to(t_end),

@@ -14,23 +14,25 @@
 //! | [`assembled`] | a scene with its mechanism |
 //! | [`study`] | its consistent start, its motion, its files |
 //! | `report_builder`, `comparison` | its report, and several choices for reactions that are not unique |
+//! | [`run_options`] | options of a run that replace those of its scene |
 //! | [`configuration`] | one configuration, and the results for its reactions |
 //! | [`along_motion`] | the verdicts along its motion |
-//! | [`difference`] | comparison of two scenes |
 //! | [`mod@rows`] | what takes the rows of a run: one value for each file or array |
 //! | [`mod@sweep`] | many runs with different numbers |
 //! | [`mod@tolerance`] | many mechanisms with data within their tolerances |
 //! | [`mod@work_precision`] | error against run time |
 //! | [`memory`], `workers` | estimated memory; threads |
+//! | `command` (feature `command`) | values of options on a command line |
 //! | [`forked`] | parallel work in a process that was forked |
 //! | [`error`] | reasons why there are no results |
 //! | [`refusal`], [`source`] | these reasons in words for people (feature `messages`) and as documents; texts of files |
 
 pub mod along_motion;
 pub mod assembled;
+#[cfg(feature = "command")]
+pub mod command;
 mod comparison;
 pub mod configuration;
-pub mod difference;
 pub mod error;
 pub mod forked;
 pub mod memory;
@@ -40,6 +42,7 @@ pub mod questions;
 pub mod refusal;
 mod report_builder;
 pub mod rows;
+pub mod run_options;
 pub mod source;
 mod spread;
 pub mod start;
@@ -66,11 +69,11 @@ pub use solvability;
 pub use along_motion::{Progress, VerdictsAlongMotion};
 pub use assembled::AssembledScene;
 pub use configuration::ConfigurationAnalysis;
-pub use difference::Comparison;
 pub use error::StudyError;
 pub use report_builder::written_scene;
+pub use run_options::RunOptions;
 pub use solvability::Numbers;
-pub use study::{Overrides, Study};
+pub use study::Study;
 pub use workers::{MOST_THREADS, start_threads, threads};
 
 /// The results of two computations, run in parallel if there are threads for both, otherwise one

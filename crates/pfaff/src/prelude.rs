@@ -9,4 +9,5 @@ pub use scene::Scene;
 
 pub use crate::configuration::ConfigurationAnalysis;
 pub use crate::error::StudyError;
-pub use crate::study::{Overrides, Study};
+pub use crate::run_options::RunOptions;
+pub use crate::study::Study;

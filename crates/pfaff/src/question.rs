@@ -27,9 +27,9 @@ pub trait Question: for<'d> Deserialize<'d> + Default {
     ///
     /// # Errors
     /// Why there is no answer.
-    fn answer(
+    fn answer<'s>(
         &self,
-        of: &Self::Subject<'_>,
+        of: Self::Subject<'s>,
         control: &Control<'_>,
     ) -> Result<Self::Answer, Refusal>;
 }
@@ -40,22 +40,22 @@ pub trait Subject<'s>: Sized {
     const SCENES: &'static [&'static str];
 
     /// The subject that consists of these scenes; `None` if it has another number of them.
-    fn of<'a>(scenes: &'a [Start<'s>]) -> Option<&'a Self>;
+    fn of(scenes: &[&'s Start<'s>]) -> Option<Self>;
 }
 
-impl<'s> Subject<'s> for Start<'s> {
+impl<'s> Subject<'s> for &'s Start<'s> {
     const SCENES: &'static [&'static str] = &["SCENE"];
 
-    fn of<'a>(scenes: &'a [Start<'s>]) -> Option<&'a Self> {
+    fn of(scenes: &[&'s Start<'s>]) -> Option<Self> {
         let [scene] = scenes else { return None };
         Some(scene)
     }
 }
 
-impl<'s> Subject<'s> for [Start<'s>; 2] {
+impl<'s> Subject<'s> for [&'s Start<'s>; 2] {
     const SCENES: &'static [&'static str] = &["A", "B"];
 
-    fn of<'a>(scenes: &'a [Start<'s>]) -> Option<&'a Self> {
+    fn of(scenes: &[&'s Start<'s>]) -> Option<Self> {
         scenes.try_into().ok()
     }
 }
@@ -154,17 +154,17 @@ pub trait AnyQuestion {
     ///
     /// # Errors
     /// Why there is no answer.
-    fn ask(
+    fn ask<'s>(
         &self,
-        scenes: &[Start<'_>],
+        scenes: &[&'s Start<'s>],
         control: &Control<'_>,
     ) -> Result<Box<dyn AnyAnswer>, Refusal>;
 }
 
 impl<Q: Question> AnyQuestion for Q {
-    fn ask(
+    fn ask<'s>(
         &self,
-        scenes: &[Start<'_>],
+        scenes: &[&'s Start<'s>],
         control: &Control<'_>,
     ) -> Result<Box<dyn AnyAnswer>, Refusal> {
         let n = scenes.len();

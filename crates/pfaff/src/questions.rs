@@ -1,14 +1,20 @@
 //! All questions, each in a folder of its own: options, computation, answer, words.
 
+pub mod check;
+pub mod diff;
 pub mod equilibrium;
 pub mod linearise;
+pub mod plan;
 
 use report::read_json;
 use scene::nearest;
 use serde::Deserialize;
 
+pub use check::Check;
+pub use diff::Diff;
 pub use equilibrium::Equilibrium;
 pub use linearise::Linearise;
+pub use plan::Plan;
 
 use crate::question::{AnyQuestion, Output, Question, Subject};
 use crate::refusal::Refusal;
@@ -63,7 +69,7 @@ macro_rules! questions {
     };
 }
 
-questions!(Equilibrium, Linearise);
+questions!(Plan, Check, Equilibrium, Linearise, Diff);
 
 impl Questions {
     /// The question of this name, with its options as a JSON object.

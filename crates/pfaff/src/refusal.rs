@@ -13,6 +13,7 @@ use scene::Diagnostic;
 use serde::Serialize;
 
 use crate::error::StudyError;
+use crate::sweep::SweepError;
 
 /// The reason why there is no answer.
 #[derive(Clone, Debug)]
@@ -163,6 +164,17 @@ impl From<FileError> for Refusal {
 impl From<TableError> for Refusal {
     fn from(error: TableError) -> Self {
         Self::stopped(error.to_string()).coded(error.code())
+    }
+}
+
+impl From<SweepError> for Refusal {
+    fn from(error: SweepError) -> Self {
+        let refusal = if error.is_input() {
+            Self::input(error.to_string())
+        } else {
+            Self::stopped(error.to_string())
+        };
+        refusal.coded(error.code())
     }
 }
 

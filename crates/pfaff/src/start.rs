@@ -1,16 +1,20 @@
 //! The text of a scene, and what is made of it when it is first needed: the assembled scene, and
-//! the study of its start.
+//! its judged start.
 
 use std::sync::{Arc, OnceLock};
 
-use model::{Registry, Tolerance};
+use model::{Mechanism, Registry, System, Tolerance};
+use report::AnalysisDocument;
+use scene::Scene;
 
 use crate::assembled::AssembledScene;
+use crate::configuration::{ConfigurationAnalysis, KeptAnalysis};
 use crate::error::StudyError;
 use crate::memory::Budget;
 use crate::question::{Control, Progress};
 use crate::refusal::Refusal;
-use crate::study::{Overrides, Study};
+use crate::run_options::RunOptions;
+use crate::study::Study;
 
 /// A scene that questions are asked about.
 pub struct Start<'r> {
@@ -24,7 +28,7 @@ pub struct Start<'r> {
     pub registry: &'r Registry,
     /// What its computations may take of the memory.
     pub budget: Budget,
-    study: OnceLock<Arc<Study>>,
+    judged: OnceLock<Arc<Judged>>,
 }
 
 impl<'r> Start<'r> {
@@ -37,17 +41,15 @@ impl<'r> Start<'r> {
             tolerance: Tolerance::default(),
             registry,
             budget,
-            study: OnceLock::new(),
+            judged: OnceLock::new(),
         }
     }
 
-    /// The same, with the study that was made of it before.
+    /// The same, with what is known of it by another one with the same text and tolerance.
     #[must_use]
-    pub fn knowing(self, study: Arc<Study>) -> Self {
-        Self {
-            study: OnceLock::from(study),
-            ..self
-        }
+    pub fn knowing(self, other: &Self) -> Self {
+        let judged = other.judged.clone();
+        Self { judged, ..self }
     }
 
     /// An error with its places in the text.
@@ -66,26 +68,167 @@ impl<'r> Start<'r> {
         self.budget.assembled(of, self.registry, self.tolerance)
     }
 
-    /// Finds a consistent start, and chooses rows, with options in place of those of the scene.
+    /// Finds a consistent start and chooses rows, with options in place of those of the scene.
     ///
     /// # Errors
     /// As [`Self::assembled`] and [`AssembledScene::prepare`].
-    pub fn prepared(&self, with: &Overrides, control: &Control<'_>) -> Result<Study, Refusal> {
+    pub fn prepared(&self, with: &RunOptions, control: &Control<'_>) -> Result<Study, Refusal> {
         let assembled = self.assembled(control)?;
-        let stage = "assembling and choosing rows";
-        (control.progress)(Progress::Stage(stage, self.text.len()));
-        assembled.prepare(with).map_err(|e| self.refusal(e))
+        self.prepare(assembled, with, control)
+            .map_err(|e| self.refusal(e))
     }
 
-    /// The study with the options of the scene, made once.
+    fn prepare(
+        &self,
+        assembled: AssembledScene,
+        with: &RunOptions,
+        control: &Control<'_>,
+    ) -> Result<Study, StudyError> {
+        let stage = "assembling and choosing rows";
+        (control.progress)(Progress::Stage(stage, self.text.len()));
+        assembled.prepare(with)
+    }
+
+    /// Judges the start, also if no motion can begin there, with rows to drop that are not those of
+    /// the scene.
     ///
     /// # Errors
-    /// As [`Self::prepared`].
-    pub fn study(&self, control: &Control<'_>) -> Result<Arc<Study>, Refusal> {
-        if let Some(study) = self.study.get() {
-            return Ok(Arc::clone(study));
-        }
-        let study = Arc::new(self.prepared(&Overrides::default(), control)?);
-        Ok(Arc::clone(self.study.get_or_init(|| study)))
+    /// As [`Self::assembled`], or there is no start.
+    pub fn judged_with(&self, with: &RunOptions, control: &Control<'_>) -> Result<Judged, Refusal> {
+        let assembled = self.assembled(control)?;
+        let error = match self.prepare(assembled, with, control) {
+            Ok(study) => return Ok(Judged::Moves(Arc::new(study))),
+            Err(e) => e,
+        };
+        let Some(warning) = error.only_motion() else {
+            return Err(self.refusal(error));
+        };
+        let refusal = self.refusal(error);
+        let mut assembled = self.assembled(control)?;
+        let kept = assembled.analyse(with.drop.as_deref());
+        let kept = kept.map_err(|e| self.refusal(e))?.kept();
+        Ok(Judged::Stands(Box::new(Standing {
+            assembled,
+            kept,
+            warning,
+            refusal,
+        })))
     }
+
+    /// The judged start with the options of the scene. It is made once.
+    ///
+    /// # Errors
+    /// As [`Self::judged_with`].
+    pub fn judged(&self, control: &Control<'_>) -> Result<Arc<Judged>, Refusal> {
+        if let Some(judged) = self.judged.get() {
+            // A limit refuses the same scenes whether or not they are known.
+            if self.budget.limit.is_some() {
+                let of = (self.name.as_str(), self.text.as_str());
+                self.budget.allow_scene(of, judged.parts().1)?;
+            }
+            return Ok(Arc::clone(judged));
+        }
+        // Two threads may both do this; they find the same.
+        let judged = Arc::new(self.judged_with(&RunOptions::default(), control)?);
+        Ok(Arc::clone(self.judged.get_or_init(|| judged)))
+    }
+
+    /// The study with the options of the scene.
+    ///
+    /// # Errors
+    /// As [`Self::judged`], or no motion can begin.
+    pub fn study(&self, control: &Control<'_>) -> Result<Arc<Study>, Refusal> {
+        self.judged(control)?.study().map(Arc::clone)
+    }
+}
+
+/// A start with its verdicts.
+pub enum Judged {
+    /// It can move.
+    Moves(Arc<Study>),
+    /// It can only be judged.
+    Stands(Box<Standing>),
+}
+
+/// A start that can only be judged.
+pub struct Standing {
+    /// The scene, assembled.
+    pub assembled: AssembledScene,
+    /// Its verdicts.
+    pub kept: KeptAnalysis,
+    /// Why it cannot move, as a warning.
+    pub warning: String,
+    /// Why it cannot move, as a refusal of what needs a motion.
+    pub refusal: Refusal,
+}
+
+impl Judged {
+    /// The scene and its mechanism.
+    #[must_use]
+    pub fn parts(&self) -> (&Scene, &Mechanism) {
+        match self {
+            Self::Moves(study) => (&study.scene, &study.prepared.mechanism),
+            Self::Stands(stands) => (&stands.assembled.scene, &stands.assembled.mechanism),
+        }
+    }
+
+    /// What can move.
+    ///
+    /// # Errors
+    /// Why it cannot.
+    pub fn study(&self) -> Result<&Arc<Study>, Refusal> {
+        match self {
+            Self::Moves(study) => Ok(study),
+            Self::Stands(stands) => Err(stands.refusal.clone()),
+        }
+    }
+
+    /// The verdicts at the start.
+    ///
+    /// # Errors
+    /// C cannot be analysed.
+    pub fn configuration(&self) -> Result<ConfigurationAnalysis<'_>, StudyError> {
+        match self {
+            Self::Moves(study) => study.analyse(0.0, None),
+            Self::Stands(stands) => {
+                let (scene, mechanism) = self.parts();
+                Ok(ConfigurationAnalysis::again(scene, mechanism, &stands.kept))
+            }
+        }
+    }
+
+    /// Adds what speaks against a motion from the start to its document.
+    ///
+    /// # Errors
+    /// As [`Study::add_warnings`].
+    pub fn add_warnings(&self, document: &mut AnalysisDocument) -> Result<(), StudyError> {
+        match self {
+            Self::Moves(study) if document.configuration.time == 0.0 => {
+                study.add_warnings(document)
+            }
+            Self::Moves(_) => Ok(()),
+            Self::Stands(stands) => {
+                document.warnings.insert(0, stands.warning.clone());
+                Ok(())
+            }
+        }
+    }
+}
+
+/// The document of a configuration without answers to further questions.
+///
+/// # Errors
+/// A verdict cannot be explained.
+pub fn document_of(
+    configuration: &ConfigurationAnalysis<'_>,
+) -> Result<AnalysisDocument, StudyError> {
+    let layout = configuration.mechanism.layout();
+    let name = configuration.scene.name();
+    let mut document = AnalysisDocument::new(name, &configuration.analysis, None)
+        .with_freedoms(&configuration.freedoms()?, configuration.mechanism);
+    if let Some(explanation) = configuration.explanation()? {
+        document.explain(&explanation, layout);
+    }
+    document.add_sensitivities(&configuration.sensitivities()?, layout);
+    Ok(document)
 }

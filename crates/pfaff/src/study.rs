@@ -1,7 +1,6 @@
 //! A scene from its text to its results: read, assemble, decide, move, write. These are the
 //! commands without their printing.
 
-use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
@@ -9,8 +8,8 @@ use dynamics::equilibrium::{Equilibrium, EquilibriumError, EquilibriumOptions, e
 use dynamics::linearise::{Linearisation, LineariseOptions, linearise};
 use dynamics::plan::{Reactions, Rows, Verdicts};
 use dynamics::{
-    Failure, Method, MotionError, MotionFault, MotionOptions, Plan, Prepared, Sample,
-    Stabilisation, Stop, Summary, Wanted, simulate_until,
+    Failure, MotionError, MotionFault, MotionOptions, Plan, Prepared, Sample, Stop, Summary,
+    Wanted, simulate_until,
 };
 use model::start::assemble;
 use model::{
@@ -36,6 +35,7 @@ use crate::configuration::{AskedRows, ConfigurationAnalysis, requests};
 use crate::error::StudyError;
 use crate::report_builder::{OfRun, ReportBuilder};
 use crate::rows::{Calling, Ended, RowFault, RowSink, run_into};
+use crate::run_options::RunOptions;
 use crate::spread::Path;
 use crate::tables_of_run::{
     ReactionFiles, TableRows, TrajectoryFile, group_numbers, note_gap, numbers_of,
@@ -99,29 +99,6 @@ pub struct ChosenNumbers {
     pub choices: Vec<ChosenNumbers>,
 }
 
-/// Options of the caller that replace those of the scene.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Overrides {
-    /// Last time (s).
-    pub t_end: Option<f64>,
-    /// Relative tolerance.
-    pub rtol: Option<f64>,
-    /// Absolute tolerance.
-    pub atol: Option<f64>,
-    /// Largest step (s).
-    pub max_step: Option<f64>,
-    /// Most steps, accepted and rejected.
-    pub max_steps: Option<u64>,
-    /// Integrator.
-    pub method: Option<Method>,
-    /// Treatment of drift.
-    pub stabilisation: Option<Stabilisation>,
-    /// Rows to drop, from 0.
-    pub drop: Option<Vec<usize>>,
-    /// Number of components that compute at the same time.
-    pub threads: Option<NonZeroUsize>,
-}
-
 impl Study {
     /// Reads a scene, finds its consistent start and chooses rows; `name` is the file name in
     /// messages.
@@ -133,7 +110,7 @@ impl Study {
         name: &str,
         text: &str,
         registry: &Registry,
-        overrides: &Overrides,
+        overrides: &RunOptions,
     ) -> Result<Self, StudyError> {
         AssembledScene::read(name, text, registry)?.prepare(overrides)
     }
@@ -161,7 +138,7 @@ impl Study {
     /// - [`StudyError::Motion`]: there is no consistent start, or no rows can be chosen.
     /// - [`StudyError::SingularStart`]: no motion begins with the velocities of the start.
     pub fn build(scene: impl Into<Scene>) -> Result<Self, StudyError> {
-        AssembledScene::build(scene)?.prepare(&Overrides::default())
+        AssembledScene::build(scene)?.prepare(&RunOptions::default())
     }
 
     /// Analyses a configuration at a time of the motion; at t = 0 no run is needed. `drop` (rows
@@ -347,7 +324,7 @@ impl Study {
         let assembled = AssembledScene::build(scene)?;
         let (start, mut again) = (assembled.scene.start.clone(), assembled.mechanism.clone());
         let size = self.prepared.assembly.size;
-        assembled.prepare(&Overrides::default()).map_err(|error| {
+        assembled.prepare(&RunOptions::default()).map_err(|error| {
             // The search has reached these coordinates on the constraints.
             let left = match assemble(&mut again, &start) {
                 Err(StartError::NoAssembly { misfits, .. }) => missed(&misfits, size),
@@ -549,7 +526,7 @@ impl Study {
     /// neither states its end. Rows to drop belong to a study of their own, see
     /// [`AssembledScene::prepare`].
     #[must_use]
-    pub fn options_with(&self, overrides: &Overrides) -> Option<MotionOptions> {
+    pub fn options_with(&self, overrides: &RunOptions) -> Option<MotionOptions> {
         crate::assembled::options(&self.scene, overrides)
     }
 
@@ -731,7 +708,7 @@ impl Study {
     ///
     /// ```
     /// use pfaff::model::Registry;
-    /// use pfaff::{Overrides, Study};
+    /// use pfaff::{RunOptions, Study};
     ///
     /// let scene = r#"
     /// scene = { name = "pendulum", space = "plane", gravity = [0.0, -9.81] }
@@ -740,7 +717,7 @@ impl Study {
     /// simulate = { t_end = 1.0 }
     /// output = { reactions = false }
     /// "#;
-    /// let study = Study::read("pendulum.toml", scene, &Registry::standard(), &Overrides::default())?;
+    /// let study = Study::read("pendulum.toml", scene, &Registry::standard(), &RunOptions::default())?;
     /// let plan = study.plan()?;
     /// assert_eq!(plan.components[0].decisions.reactions.taken, "none");
     /// assert_eq!(plan.components[0].decisions.method.reason, "no applied forces, so that nothing can be stiff");

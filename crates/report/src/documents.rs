@@ -33,15 +33,14 @@ pub use analysis::{
     ReasonsDocument, RowDocument, StretchDocument, ValueDocument, ValuesDocument, WayDocument,
 };
 pub use answers::{
-    CheckDocument, CodeDocument, CodesDocument, DiffBody, DiffChange, DiffDocument, DiffMotion,
-    DiffReaction, DiffSide, EndedDocument, ImportDocument, NewDocument, OmissionDocument,
+    CodeDocument, CodesDocument, EndedDocument, ImportDocument, NewDocument, OmissionDocument,
     RefusalDocument, TemplateDocument, TemplatesDocument, ViewDocument,
 };
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
 pub use impulses::ImpulseDocument;
 pub use misfits::{MisfitDocument, SpreadDocument};
 pub use motion::{MomentDocument, MotionDocument};
-pub use plan::{DecisionDocument, PlanDocument, PlannedComponentDocument, SavingDocument};
+pub use plan::decision_key;
 pub use run::{
     ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Gap, Run, RunDocument, choice_file,
 };

@@ -28,7 +28,7 @@ pub mod tolerance;
 pub mod work_precision;
 
 pub use documents::{
-    AnalysisDocument, Ending, PlanDocument, Run, RunDocument, read_json, write_json,
+    AnalysisDocument, Ending, Run, RunDocument, decision_key, read_json, write_json,
 };
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Png, PngError, Series, Style};
 pub use files::{Family, FileError, OutputDirectory, OutputFile, PROVENANCE, Replaces, is_ours};

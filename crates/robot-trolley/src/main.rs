@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use pfaff::Overrides;
+use pfaff::RunOptions;
 use pfaff::report::OutputDirectory;
 use pfaff::solvability::analyse;
 
@@ -37,7 +37,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
-    let study = variants::read(&Overrides::default())?;
+    let study = variants::read(&RunOptions::default())?;
     let mechanism = &study.prepared.mechanism;
     let start = analyse(mechanism, 0.0, &study.prepared.q)?;
     println!("{}", text::structure(&start));

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use pfaff::dynamics::code::SharedCode;
 use pfaff::dynamics::{MotionOptions, RowChoice, Summary};
 use pfaff::model::{Reaction, Registry};
-use pfaff::{Overrides, Study, StudyError};
+use pfaff::{RunOptions, Study, StudyError};
 use robot_trolley::generated::automatic;
 
 /// The scene that is built in.
@@ -40,7 +40,7 @@ pub(crate) struct Instant {
 }
 
 /// Reads the scene, with the given rows dropped.
-pub(crate) fn read(overrides: &Overrides) -> Result<Study, StudyError> {
+pub(crate) fn read(overrides: &RunOptions) -> Result<Study, StudyError> {
     Study::read(
         "robot-trolley.toml",
         SCENE,
@@ -56,16 +56,16 @@ pub(crate) fn run() -> Result<Vec<Variant>, Box<dyn std::error::Error>> {
 
 fn run_one(deleted: [usize; 2]) -> Result<Variant, Box<dyn std::error::Error>> {
     let drop = deleted.map(|row| row - 1).to_vec();
-    let study = read(&Overrides {
+    let study = read(&RunOptions {
         drop: Some(drop.clone()),
-        ..Overrides::default()
+        ..RunOptions::default()
     })?;
     run_study(&study, deleted, RowChoice::Drop(drop))
 }
 
 /// The motion on generated code, with the rows (from 1) that it drops.
 pub(crate) fn generated() -> Result<Variant, Box<dyn std::error::Error>> {
-    let mut study = read(&Overrides::default())?;
+    let mut study = read(&RunOptions::default())?;
     let code: Arc<SharedCode> = Arc::new(automatic::Code);
     study.prepared = study.prepared.with_code(code)?;
     let deleted = match study.prepared.decision.dropped[..] {

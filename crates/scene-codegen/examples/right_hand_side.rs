@@ -12,7 +12,7 @@ use std::time::Instant;
 use dynamics::KeptRowMotion;
 use model::System;
 use pfaff::model::Registry;
-use pfaff::{AssembledScene, Overrides};
+use pfaff::{AssembledScene, RunOptions};
 use pfaff_scene_codegen::{Choices, Subject, generate};
 
 type Failure = Box<dyn std::error::Error>;
@@ -79,7 +79,7 @@ fn main() -> Result<(), Failure> {
 fn measured(path: &str) -> Result<String, Failure> {
     let text = std::fs::read_to_string(path)?;
     let study =
-        AssembledScene::read(path, &text, &Registry::standard())?.prepare(&Overrides::default())?;
+        AssembledScene::read(path, &text, &Registry::standard())?.prepare(&RunOptions::default())?;
     let prepared = &study.prepared;
     let options = study.options.as_ref().ok_or("the scene has no run")?;
     let subject = Subject::of_run(prepared, options)?;

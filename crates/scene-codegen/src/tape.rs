@@ -28,7 +28,7 @@ pub const LANES: usize = 8;
 ///
 /// ```
 /// use std::sync::Arc;
-/// use pfaff::{Overrides, Study};
+/// use pfaff::{RunOptions, Study};
 /// use pfaff_scene_codegen::{Subject, Tape};
 /// let scene = r#"
 /// scene = { name = "pendulum", space = "plane", gravity = [0.0, -10.0] }
@@ -36,7 +36,7 @@ pub const LANES: usize = 8;
 /// joint = [{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [0.0, 0.0] }]
 /// "#;
 /// let registry = pfaff::model::Registry::standard();
-/// let mut study = Study::read("pendulum.toml", scene, &registry, &Overrides::default())?;
+/// let mut study = Study::read("pendulum.toml", scene, &registry, &RunOptions::default())?;
 /// let tape = Tape::of(&Subject::at_start(&study.prepared))?;
 /// study.prepared = study.prepared.with_code(Arc::new(tape))?; // its runs are on the tape from now on
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -5,7 +5,7 @@ use dynamics::KeptRowMotion;
 use linalg::KeptRowSaddle;
 use model::System;
 use pfaff::solvability::Chosen;
-use pfaff::{AssembledScene, Overrides, Study};
+use pfaff::{AssembledScene, RunOptions, Study};
 use symbolic::Symbol;
 
 use crate::equations::Source;
@@ -66,7 +66,7 @@ pub(crate) fn scenes() -> Vec<(String, String)> {
 
 pub(crate) fn study(name: &str, text: &str) -> Study {
     AssembledScene::read(name, text, &model::Registry::standard())
-        .and_then(|b| b.prepare(&Overrides::default()))
+        .and_then(|b| b.prepare(&RunOptions::default()))
         .unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 

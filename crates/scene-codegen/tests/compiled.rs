@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use dynamics::{KeptRowMotion, simulate};
 use pfaff::model::Registry;
-use pfaff::{AssembledScene, Overrides, Study};
+use pfaff::{AssembledScene, RunOptions, Study};
 use pfaff_scene_codegen::{Choices, Subject, generate};
 
 mod space;
@@ -49,7 +49,7 @@ fn rustc(folder: &Path, arguments: &[&str]) {
 
 fn study(name: &str, text: &str) -> Study {
     AssembledScene::read(name, text, &Registry::standard())
-        .and_then(|b| b.prepare(&Overrides::default()))
+        .and_then(|b| b.prepare(&RunOptions::default()))
         .unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 

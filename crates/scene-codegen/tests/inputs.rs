@@ -10,7 +10,7 @@ use dynamics::{CodeMismatch, KeptRowMotion, Prepared, SceneCode, simulate};
 use linalg::KeptRowSaddle;
 use model::{Registry, System};
 use pfaff::solvability::Chosen;
-use pfaff::{AssembledScene, Overrides, Study};
+use pfaff::{AssembledScene, RunOptions, Study};
 use pfaff_scene_codegen::{Choices, CodeError, NotAnInput, State, Subject, scene_tape, scene_text};
 use scene::Template;
 
@@ -85,7 +85,7 @@ fn changed(text: &str, keys: &[&str], shares: [f64; 3]) -> String {
 
 fn study(text: &str) -> Study {
     AssembledScene::read("scene.toml", text, &Registry::standard())
-        .and_then(|b| b.prepare(&Overrides::default()))
+        .and_then(|b| b.prepare(&RunOptions::default()))
         .unwrap_or_else(|e| panic!("{e}"))
 }
 

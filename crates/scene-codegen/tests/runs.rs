@@ -7,7 +7,7 @@ use std::sync::Arc;
 use dynamics::{EventKind, Method, MotionOptions, Plan, Prepared, Summary, Wanted, simulate};
 use model::System;
 use pfaff::model::Registry;
-use pfaff::{AssembledScene, Overrides};
+use pfaff::{AssembledScene, RunOptions};
 use pfaff_scene_codegen::{Subject, Tape};
 
 mod space;
@@ -54,7 +54,7 @@ fn runs_on_code_are_those_of_the_interpreter_in_space() {
 /// How often a run on code leaves it, and its largest difference from the run of the interpreter.
 fn compare(name: &str, text: &str) -> (usize, f64) {
     let study = AssembledScene::read(name, text, &Registry::standard())
-        .and_then(|b| b.prepare(&Overrides::default()))
+        .and_then(|b| b.prepare(&RunOptions::default()))
         .unwrap_or_else(|e| panic!("{name}: {e}"));
     let own = study.options.expect("the scene has a run");
     let options = MotionOptions {
@@ -119,10 +119,10 @@ fn passages_do_not_depend_on_tolerances_or_on_who_evaluates() {
         (three, Some(vec![1])),
         (three, Some(vec![9])),
     ] {
-        let overrides = Overrides {
+        let overrides = RunOptions {
             drop: drop.clone(),
             t_end: Some(3.0),
-            ..Overrides::default()
+            ..RunOptions::default()
         };
         let study = AssembledScene::read("cranks", scene, &Registry::standard())
             .and_then(|b| b.prepare(&overrides))

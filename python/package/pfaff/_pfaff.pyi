@@ -107,9 +107,10 @@ class Scene:
         """
         Analyses a configuration.
         """
-    def ask(self, /, question: str, options: str) -> str:
+    def ask(self, /, question: str, options: str, other: Scene | None) -> str:
         """
-        Asks a question by its name, with its options as a JSON object; returns the document.
+        Asks a question by its name about this scene and perhaps another one, with its options as a
+        JSON object; returns the document.
         """
     def check(self, /, max_memory: SupportsIndex | str | None) -> None:
         """

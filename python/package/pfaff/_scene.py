@@ -445,11 +445,50 @@ class Scene:
         with its verdict. ``stable`` leaves places that are not stable by a small push, and searches
         on.
         """
-        document: dict[str, Any] = json.loads(self._ask("equilibrium", {"stable": bool(stable)}))
+        return self._document("equilibrium", {"stable": bool(stable)})
+
+    def plan(
+        self,
+        *,
+        vary: Iterable[str] = (),
+        t_end: float | None = None,
+        method: str | None = None,
+        drop: Iterable[int] | None = None,
+    ) -> dict[str, Any]:
+        """What a run of the scene computes and omits, and why, as ``pfaff plan --json``.
+
+        With ``vary``, as ``"body.crank.mass=1:2:11"``, also how the runs of such a sweep are
+        evaluated.
+        """
+        run = {
+            "t_end": arguments.maybe(arguments.number, "t_end", t_end),
+            "method": method,
+            "drop": None if drop is None else [int(row) for row in drop],
+        }
+        return self._document("plan", {"vary": arguments.texts("vary", vary), "run": run})
+
+    def diff(self, other: Scene) -> dict[str, Any]:
+        """The differences to another scene: ranks, verdicts, dependencies, motion.
+
+        The document of ``pfaff diff --json``.
+        """
+        return self._document("diff", {}, other)
+
+    def summary(self) -> dict[str, Any]:
+        """What the scene is, once it is assembled: the document of ``pfaff check --json``."""
+        return self._document("check", {})
+
+    def _document(
+        self, question: str, options: Mapping[str, Any], other: Scene | None = None
+    ) -> dict[str, Any]:
+        document: dict[str, Any] = json.loads(self._ask(question, options, other))
         return document
 
-    def _ask(self, question: str, options: Mapping[str, Any]) -> str:
-        return self._of.ask(question, json.dumps(options))
+    def _ask(
+        self, question: str, options: Mapping[str, Any], other: Scene | None = None
+    ) -> str:
+        about = None if other is None else other._of
+        return self._of.ask(question, json.dumps(options), about)
 
     def tolerance(
         self,

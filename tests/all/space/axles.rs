@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use model::{ConstraintId, Mechanism, Registry, System};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 use solvability::{Analysis, Group, Questions, analyse};
 
 /// Half of the track, and the radius of the wheels.
@@ -19,7 +19,7 @@ const COMPONENTS: [&str; 6] = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
 
 fn study(text: &str) -> Study {
     let registry = Registry::standard();
-    let study = Study::read("axle.toml", text, &registry, &Overrides::default());
+    let study = Study::read("axle.toml", text, &registry, &RunOptions::default());
     study.unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 

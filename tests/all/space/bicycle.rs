@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use dynamics::KeptRowMotion;
 use model::{Registry, System};
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 use solvability::{Verdict, analyse};
 
 use crate::bicycle::{PARTS, State, scene, steering_axis, steering_point};
@@ -123,7 +123,7 @@ fn accelerations_of_the_published_state() {
         "bicycle.toml",
         &scene(&states),
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     );
     let study = study.unwrap_or_else(|e| panic!("{e}"));
     let prepared = &study.prepared;

@@ -8,14 +8,14 @@ use dynamics::{Method, MotionOptions};
 use joints::space3::{Pose, dot};
 use linalg::eigenpairs;
 use model::Registry;
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 fn study(text: &str) -> Study {
     let study = Study::read(
         "bushing.toml",
         text,
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     );
     study.unwrap_or_else(|e| panic!("{text}\n{e}"))
 }

@@ -1,7 +1,7 @@
 //! Choices among loads in space, with closed forms: a table on four legs, a door on three hinges.
 
 use model::System;
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 use solvability::{Choice, Compliance, Distribution, NormWeights};
 
 use crate::examples;
@@ -14,7 +14,7 @@ const CLOSE: f64 = 1e-11;
 fn chosen(name: &str, choice: impl Fn(&Study) -> Choice) -> Distribution {
     let text = examples::read(&examples::scene(name));
     let registry = model::Registry::standard();
-    let study = Study::read(name, &text, &registry, &Overrides::default());
+    let study = Study::read(name, &text, &registry, &RunOptions::default());
     let study = study.unwrap_or_else(|e| panic!("{name}: {e}"));
     let analysis = study.analyse(0.0, None).unwrap_or_else(|e| panic!("{e}"));
     let choice = choice(&study);

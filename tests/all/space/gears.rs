@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use dynamics::{Method, MotionOptions, Summary};
 use joints::space3::{Pose, cross, dot};
 use model::{Mechanism, Reaction, Registry, System};
-use pfaff::{ConfigurationAnalysis, Overrides, Study};
+use pfaff::{ConfigurationAnalysis, RunOptions, Study};
 use solvability::Verdict;
 
 use super::verdicts::Motion;
@@ -19,7 +19,7 @@ fn study(text: &str) -> Study {
         "gears.toml",
         text,
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     );
     study.unwrap_or_else(|e| panic!("{text}\n{e}"))
 }

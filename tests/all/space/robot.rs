@@ -10,7 +10,7 @@ use dynamics::MotionOptions;
 use joints::space3::Pose;
 use model::{ConstraintId, Registry, System};
 use oracle::{Answer, Pins, answer, idle_loads};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 use solvability::{Analysis, Choice, Compliance, NormWeights, analyse};
 use suite::Quantity;
 use tests::largest;
@@ -45,7 +45,7 @@ fn scene() -> String {
 
 fn study(text: &str) -> Study {
     let registry = Registry::standard();
-    let study = Study::read("robot.toml", text, &registry, &Overrides::default());
+    let study = Study::read("robot.toml", text, &registry, &RunOptions::default());
     study.unwrap_or_else(|e| panic!("{e}"))
 }
 

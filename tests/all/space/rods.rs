@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 use dynamics::MotionOptions;
 use model::Registry;
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 use crate::generated_scenes::angle;
 
@@ -66,7 +66,7 @@ fn scene() -> String {
 #[test]
 fn flat_poses_of_slender_rods_are_passed_at_every_tolerance() {
     let registry = Registry::standard();
-    let study = Study::read("rods.toml", &scene(), &registry, &Overrides::default())
+    let study = Study::read("rods.toml", &scene(), &registry, &RunOptions::default())
         .unwrap_or_else(|e| panic!("{e}"));
     let t_end = 2.0;
     let expected = angle(LOOPS, t_end);

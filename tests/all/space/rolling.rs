@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use dynamics::{Method, MotionOptions};
 use joints::space3::{Axes, Pose};
 use model::{Reaction, Registry};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 /// The motions below are smooth, and rows are satisfied to rounding at output; the tolerance of the
 /// method is 1e-12.
@@ -23,7 +23,7 @@ struct Row {
 
 fn moved(scene: &str, t_end: f64) -> Vec<Row> {
     let registry = Registry::standard();
-    let study = Study::read("wheel.toml", scene, &registry, &Overrides::default());
+    let study = Study::read("wheel.toml", scene, &registry, &RunOptions::default());
     let study = study.unwrap_or_else(|e| panic!("{e}"));
     let options = MotionOptions {
         method: Method::Dop853,
@@ -209,7 +209,7 @@ fn a_centre_that_is_too_low_is_named() {
              radius = 0.4, tube = 0.1 }}]\n"
         );
         let registry = Registry::standard();
-        match Study::read("wheel.toml", &scene, &registry, &Overrides::default()) {
+        match Study::read("wheel.toml", &scene, &registry, &RunOptions::default()) {
             Ok(_) => "a start".to_owned(),
             Err(e) => e.to_string(),
         }

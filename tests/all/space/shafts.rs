@@ -5,14 +5,14 @@ use std::ops::ControlFlow;
 use dynamics::{Method, MotionOptions};
 use joints::space3::Pose;
 use model::{Registry, System};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 /// The rows of a joint are satisfied to rounding at output; the tolerance of the method is 1e-12.
 const TOLERANCE: f64 = 1e-9;
 
 fn study(scene: &str) -> Study {
     let registry = Registry::standard();
-    let study = Study::read("shafts.toml", scene, &registry, &Overrides::default());
+    let study = Study::read("shafts.toml", scene, &registry, &RunOptions::default());
     study.unwrap_or_else(|e| panic!("{e}"))
 }
 

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 use dynamics::{Method, MotionOptions, Summary};
 use model::Registry;
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 /// The end of a run.
 struct End {
@@ -16,7 +16,12 @@ struct End {
 }
 
 fn study(text: &str) -> Study {
-    let study = Study::read("t.toml", text, &Registry::standard(), &Overrides::default());
+    let study = Study::read(
+        "t.toml",
+        text,
+        &Registry::standard(),
+        &RunOptions::default(),
+    );
     study.unwrap_or_else(|e| panic!("{e}"))
 }
 

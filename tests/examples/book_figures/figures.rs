@@ -14,7 +14,7 @@ use pfaff::report::work_precision::{
 };
 use pfaff::report::{Panel, Series};
 use pfaff::solvability::analyse;
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 type Fallible<T> = Result<T, Box<dyn Error>>;
 
@@ -71,7 +71,7 @@ fn scene_of_page(root: &File, chapter: &str, name: &str) -> Fallible<String> {
     Ok(scene.to_owned())
 }
 
-fn read(text: &str, overrides: &Overrides) -> Fallible<Study> {
+fn read(text: &str, overrides: &RunOptions) -> Fallible<Study> {
     Ok(Study::read(
         "scene.toml",
         text,
@@ -82,7 +82,7 @@ fn read(text: &str, overrides: &Overrides) -> Fallible<Study> {
 
 /// A mechanism at its start, its joints marked by verdict and labelled with their rows.
 fn with_rows(text: &str) -> Fallible<String> {
-    let study = read(text, &Overrides::default())?;
+    let study = read(text, &RunOptions::default())?;
     let described = study.scene.description.plane();
     let mut described = described.ok_or("a scene of the plane")?.clone();
     let rows: Vec<String> = study
@@ -118,7 +118,7 @@ fn with_rows(text: &str) -> Fallible<String> {
 
 /// A mechanism at a time of its motion, marked by verdict.
 fn leaning(text: &str, t: f64) -> Fallible<String> {
-    let study = read(text, &Overrides::default())?;
+    let study = read(text, &RunOptions::default())?;
     let configuration = study.analyse(t, None)?;
     Ok(figures::mechanism(
         configuration.mechanism,
@@ -130,7 +130,7 @@ fn leaning(text: &str, t: f64) -> Fallible<String> {
 
 /// A mechanism at its start, as `pfaff view` draws it.
 fn viewed(text: &str) -> Fallible<String> {
-    let study = read(text, &Overrides::default())?;
+    let study = read(text, &RunOptions::default())?;
     let start = study.analyse(0.0, None)?;
     Ok(figures::labelled_mechanism(
         start.mechanism,
@@ -142,7 +142,7 @@ fn viewed(text: &str) -> Fallible<String> {
 }
 
 fn cart(text: &str) -> Fallible<String> {
-    let study = read(text, &Overrides::default())?;
+    let study = read(text, &RunOptions::default())?;
     let mut recorder = PathRecorder::new(&study.prepared.mechanism, &[0])?;
     let options = MotionOptions {
         output_step: 0.05,
@@ -257,9 +257,9 @@ fn reactions(text: &str) -> Fallible<String> {
     // By component, by choice, by time.
     let mut values = vec![vec![Vec::new(); DROPPED.len()]; shown.len()];
     for (choice, dropped) in DROPPED.iter().enumerate() {
-        let overrides = Overrides {
+        let overrides = RunOptions {
             drop: Some(dropped.map(|row| row - 1).to_vec()),
-            ..Overrides::default()
+            ..RunOptions::default()
         };
         let study = read(text, &overrides)?;
         let groups = &study.prepared.mechanism.layout().groups;

@@ -17,7 +17,7 @@ use faer::{Col, Par, Side};
 use lab::generate::{Kind, Order};
 use linalg::{SchurSaddle, SchurStructure, SparseMatrix};
 use model::System;
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 /// Number of runs of each solver; the least time counts.
 const RUNS: usize = 15;
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         generator.write(&mut text)?;
         let text = String::from_utf8(text)?;
         let registry = model::Registry::standard();
-        let study = Study::read(&generator.name(), &text, &registry, &Overrides::default())?;
+        let study = Study::read(&generator.name(), &text, &registry, &RunOptions::default())?;
         compare(&generator.name(), &SaddleSystem::of(&study.prepared)?)?;
     }
     Ok(())

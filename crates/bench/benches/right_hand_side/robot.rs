@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use dynamics::{KeptRowMotion, MotionOptions, Prepared, simulate};
 use linalg::Matrix;
 use model::{Registry, System};
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 use crate::Outcome;
 use crate::saddle::Saddle;
@@ -47,7 +47,7 @@ impl Robot {
             case.name,
             case.scene,
             &Registry::standard(),
-            &Overrides::default(),
+            &RunOptions::default(),
         )?;
         let prepared = study.prepared;
         let options = MotionOptions {

@@ -10,7 +10,7 @@ mod reach;
 use pfaff::dynamics::MotionOptions;
 use pfaff::model::Registry;
 use pfaff::scene::Diagnostic;
-use pfaff::{AssembledScene, Overrides, StudyError};
+use pfaff::{AssembledScene, RunOptions, StudyError};
 
 pub use reach::Reach;
 pub(crate) use reach::T_END;
@@ -63,7 +63,7 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
         Err(other) => panic!("a text is refused without a place: {other}"),
     };
     begin(Stage::Prepare);
-    let mut study = match assembled.prepare(&Overrides::default()) {
+    let mut study = match assembled.prepare(&RunOptions::default()) {
         Ok(study) => study,
         Err(e) => {
             named(&e);

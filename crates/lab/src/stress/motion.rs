@@ -8,7 +8,7 @@ use dynamics::{
 };
 use model::start::CorrectionLimit;
 use model::{BodySpace, Described, Description, Mechanism, Registry, StartOptions};
-use pfaff::{Overrides, Study, StudyError};
+use pfaff::{RunOptions, Study, StudyError};
 use solvability::{Analysis, analyse};
 
 use crate::stress::case::{Case, Expected, Outcome};
@@ -75,7 +75,7 @@ pub fn asking(
 /// # Errors
 /// The refusal, with all its problems.
 pub fn study(text: &str) -> Result<Study, Outcome> {
-    Study::read("scene", text, &Registry::standard(), &Overrides::default())
+    Study::read("scene", text, &Registry::standard(), &RunOptions::default())
         .map_err(|e| refused(&e))
 }
 

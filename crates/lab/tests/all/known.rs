@@ -21,7 +21,7 @@ fn case(name: &str) -> (Prepared, Vec<Instant>) {
         case.name,
         case.scene,
         &registry,
-        &pfaff::Overrides::default(),
+        &pfaff::RunOptions::default(),
     );
     let instants = case.reference().instants;
     let later = instants.into_iter().filter(|i| i.t > 0.0).collect();

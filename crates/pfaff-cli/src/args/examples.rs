@@ -41,15 +41,6 @@ pub(super) const SIMULATE: &str = "Examples:
   pfaff simulate robot-trolley.toml --out run --drop 6,21        with a choice of the rows to eliminate
   pfaff simulate robot-trolley.toml --out run --t-end 5 --rtol 1e-10 --json";
 
-pub(super) const PLAN: &str = "Examples:
-  pfaff plan robot-trolley.toml                        each decision, its reason, and what it saves
-  pfaff plan robot-trolley.toml --method radau5 --json";
-
-pub(super) const CHECK: &str = "Examples:
-  pfaff check robot-trolley.toml            every problem of the file, with line and column
-  pfaff check robot-trolley.toml --watch    again whenever the file is saved; Ctrl-C ends it
-  pfaff check - --json < robot-trolley.toml";
-
 pub(super) const SCHEMA: &str = "Examples:
   pfaff schema > pfaff.schema.json
 
@@ -82,13 +73,6 @@ pub(super) const VIEW: &str = "Examples:
 
 The start is assembled first. Joints are filled by the verdict of their reactions, and named with their rows. Bodies are drawn through their joints: a scene does not
 tell their shapes.";
-
-pub(super) const DIFF: &str = "Examples:
-  pfaff diff robot.toml relaxed.toml            what changed when a joint was relaxed
-  pfaff diff robot.toml relaxed.toml --json
-
-Joints, drives and bodies are the same where their names are. Motions are compared where both scenes have [simulate], to the earlier of the two ends. The exit code
-is 0 also where the scenes differ.";
 
 pub(super) const COMPLETIONS: &str = "Examples:
   pfaff completions bash > ~/.local/share/bash-completion/completions/pfaff

@@ -289,43 +289,6 @@ fn rows_that_cannot_be_dropped() {
 }
 
 #[test]
-fn what_moved_to_the_laboratory_is_told_where() {
-    let folder = Folder::new("moved");
-    for (option, value, message) in [
-        (
-            "--formulation",
-            "minimum-norm",
-            "for reactions of least norm use `analyze --choose minimum-norm`",
-        ),
-        (
-            "--formulation",
-            "null-space",
-            "formulation `null-space` is a comparator of the laboratory (`lab::work_precision`)",
-        ),
-        ("--formulation", "kept-rows", "leave the formulation out"),
-        (
-            "--method",
-            "gbs",
-            "method `gbs` is a comparator of the laboratory (`lab::work_precision`)",
-        ),
-        ("--method", "hem4", "method `hem4` is gone"),
-        (
-            "--stabilisation",
-            "baumgarte",
-            "stabilisation `baumgarte` is a comparator of the laboratory",
-        ),
-    ] {
-        for command in ["simulate", "plan"] {
-            let out = ["--out", folder.text()];
-            let out = if command == "plan" { &[][..] } else { &out[..] };
-            let output = pfaff(&[&[command, ROBOT, option, value][..], out].concat());
-            assert_eq!(output.status.code(), Some(2), "{option} {value}");
-            assert!(stderr(&output).contains(message), "{}", stderr(&output));
-        }
-    }
-}
-
-#[test]
 fn options_that_do_not_go_together() {
     let folder = Folder::new("together");
     let simulate = ["simulate", ROBOT, "--out", folder.text()];
@@ -510,14 +473,6 @@ fn names_that_do_not_exist_are_answered_with_those_that_do() {
         (&["check", &dor, "--watch"], &near),
         (&["simulate", &dor, "--out", &out], &near),
         (&["work-precision", &dor, "--out", &out], &near),
-        (
-            &["stress", "--family", "trivial", "--out", "st"],
-            "cargo run --release -p lab -- stress --family trivial --out st",
-        ),
-        (
-            &["generate", "fleet", "--n", "3"],
-            "cargo run --release -p lab -- generate fleet --n 3",
-        ),
     ] {
         let output = pfaff(arguments);
         let said = stderr(&output);

@@ -12,7 +12,7 @@ use super::singular::flat_cranks;
 use super::{Folder, ROBOT, pfaff, stdout, with_scene};
 
 fn study(name: &str, text: &str) -> Study {
-    let study = Study::read(name, text, &Registry::standard(), &Overrides::default());
+    let study = Study::read(name, text, &Registry::standard(), &RunOptions::default());
     study.unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -81,9 +81,9 @@ fn the_summary_of_a_run_is_the_one_of_the_command() {
         value
     };
     let of_command = timeless(&stdout(&output));
-    let overrides = Overrides {
+    let overrides = RunOptions {
         t_end: Some(0.5),
-        ..Overrides::default()
+        ..RunOptions::default()
     };
     let text = robot();
     let study = Study::read(ROBOT, &text, &Registry::standard(), &overrides).expect("a scene");

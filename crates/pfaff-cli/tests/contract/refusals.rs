@@ -1,6 +1,7 @@
 //! Every command refuses every kind of wrong input with a code of the table: in words on standard
 //! error, and with `--json` as one document on standard output.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
@@ -261,6 +262,6 @@ fn all_commands_are_walked() {
         .take_while(|line| !line.is_empty())
         .filter_map(|line| line.split_whitespace().next())
         .filter(|name| *name != "help");
-    let walked: Vec<&str> = COMMANDS.iter().map(|(name, ..)| *name).collect();
-    assert_eq!(names.collect::<Vec<_>>(), walked);
+    let walked: BTreeSet<&str> = COMMANDS.iter().map(|(name, ..)| *name).collect();
+    assert_eq!(names.collect::<BTreeSet<_>>(), walked);
 }

@@ -1,11 +1,11 @@
 //! Sessions on a command line as files: what was typed, and what the command answered.
 //!
-//! A session is `NAME.out` in `tests/answers` or `tests/wrong`. A line `$ pfaff …` is a command;
-//! below it stand its exit code as `? 2` if it is not 0, its standard output, and its standard error
-//! with `! ` before each line. `$ cat FILE` and `$ ls FOLDER` show what a command has written.
-//! Commands run in a new folder with the scenes that they name: of `examples/`, the published robot,
-//! or beside the session. `UPDATE=1` writes the answers anew; read what has changed before it is
-//! committed.
+//! A session is `NAME.out` in `tests/answers` or `tests/wrong`. A line `$ pfaff …` is a command.
+//! Below it stand its exit code as `? 2` if it is not 0, its standard output, and its standard
+//! error with `! ` before each line. `$ cat FILE` and `$ ls FOLDER` show what commands have
+//! written. Commands run in a new folder with the scenes that they name: of `examples/`, the
+//! published robot, or beside the session. `UPDATE=1` writes the answers anew; read what has
+//! changed before it is committed.
 //!
 //! Words are compared exactly, numbers as far as processors agree on them: see [`agree`].
 

@@ -8,7 +8,8 @@ use report::{Comparison, Frame, Recording};
 use solvability::{Verdict, analyse};
 
 use super::compare;
-use crate::study::{Overrides, Study};
+use crate::run_options::RunOptions;
+use crate::study::Study;
 
 /// The comparisons of a scene over one second.
 fn compared(scene: &str) -> (Study, Vec<Comparison>) {
@@ -16,7 +17,7 @@ fn compared(scene: &str) -> (Study, Vec<Comparison>) {
         "scene.toml",
         scene,
         &Registry::standard(),
-        &Overrides::default(),
+        &RunOptions::default(),
     );
     let study = study.expect("the scene is right");
     let mut recording = Recording::new(1.0, 21.0, 1);

@@ -15,7 +15,7 @@ use crate::refusal::Refusal;
 use super::linux::available;
 
 /// The memory that computations may take: more is refused before it is allocated.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// The limit; `None` for the available memory of the machine.
     pub limit: Option<Bytes>,

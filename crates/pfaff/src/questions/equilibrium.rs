@@ -14,8 +14,9 @@ pub use answer::{EquilibriumAnswer, ReactionAtRest, RestingBody};
 use crate::error::StudyError;
 use crate::question::{Control, Output, Question};
 use crate::refusal::Refusal;
+use crate::run_options::RunOptions;
 use crate::start::Start;
-use crate::study::{Overrides, Study};
+use crate::study::Study;
 
 /// A start at rest: where forces balance near the described start
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -40,7 +41,7 @@ impl Question for Equilibrium {
         family: Family(&[SCENE, DOCUMENT]),
         contents: "a scene that starts there, at rest",
     });
-    type Subject<'s> = Start<'s>;
+    type Subject<'s> = &'s Start<'s>;
     type Answer = EquilibriumAnswer;
 
     fn answer(&self, of: &Start<'_>, control: &Control<'_>) -> Result<EquilibriumAnswer, Refusal> {
@@ -55,7 +56,7 @@ impl Question for Equilibrium {
             let text = study.text_at_rest(&found.q);
             let text = text.map_err(|e| Refusal::input(e.to_string()).coded(e.code()))?;
             // What is written has to start where it says.
-            Study::read(SCENE, &text, of.registry, &Overrides::default()).map_err(|e| {
+            Study::read(SCENE, &text, of.registry, &RunOptions::default()).map_err(|e| {
                 Refusal::stopped(format!("the scene that starts at rest cannot be read: {e}"))
             })?;
             answer.start_there(text);

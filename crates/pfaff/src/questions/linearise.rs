@@ -69,7 +69,7 @@ impl Question for Linearise {
         ]),
         contents: "matrices and modes as tables, and pages on which the modes move",
     });
-    type Subject<'s> = Start<'s>;
+    type Subject<'s> = &'s Start<'s>;
     type Answer = LineariseAnswer;
 
     fn answer(&self, of: &Start<'_>, control: &Control<'_>) -> Result<LineariseAnswer, Refusal> {

@@ -5,6 +5,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use scene::WithUnit;
+use serde::Deserialize;
 
 /// Largest number of runs of a sweep: their rows are held in memory when tables are written.
 const RUNS_MAX: usize = 10_000_000;
@@ -27,7 +28,8 @@ const RUNS_MAX: usize = 10_000_000;
 /// assert_eq!("L=300mm:500mm:21".parse::<Axis>()?.values()[1], 0.31);
 /// # Ok::<(), pfaff::sweep::AxisError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "String")]
 pub struct Axis {
     key: String,
     /// The text of the values.
@@ -134,6 +136,14 @@ impl Axis {
 impl fmt::Display for Axis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}={}", self.key, self.text)
+    }
+}
+
+impl TryFrom<String> for Axis {
+    type Error = AxisError;
+
+    fn try_from(text: String) -> Result<Self, AxisError> {
+        text.parse()
     }
 }
 

@@ -10,7 +10,7 @@ use model::Registry;
 use report::sweep::SweepMotion;
 use report::{SweepDocument, SweepRow, SweepStatus};
 
-use crate::{Overrides, Study};
+use crate::{RunOptions, Study};
 
 use super::{Shard, Sweep, SweepError, SweepOutcome, SweepProgress, SweepSettings, Tables, merge};
 
@@ -179,7 +179,7 @@ fn verdicts_of_a_row_are_those_of_its_run() {
         let sweep = sweep(&registry, &scene, &["scene.gravity[1]=-10,-5"]);
         sweep.row(1).motion.expect("it runs")
     };
-    let study = Study::read("upright.toml", UPRIGHT, &registry, &Overrides::default());
+    let study = Study::read("upright.toml", UPRIGHT, &registry, &RunOptions::default());
     let study = study.expect("a scene");
     let start = study.analyse(0.0, None).expect("a start");
     assert!(

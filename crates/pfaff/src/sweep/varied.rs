@@ -17,7 +17,7 @@ use super::code::SweepCode;
 use super::run::{Begun, Described, Ended};
 use crate::assembled::AssembledScene;
 use crate::error::StudyError;
-use crate::study::Overrides;
+use crate::run_options::RunOptions;
 
 /// A scene and the numbers that are varied in it. Several axes form a full grid, in which the last
 /// axis varies fastest.
@@ -164,7 +164,7 @@ impl<'r> Sweep<'r> {
         let make = || {
             let name = &self.plan.scene;
             let assembled = AssembledScene::read(name, &self.text, self.registry).ok()?;
-            Described::new(assembled.prepare(&Overrides::default()).ok()?)
+            Described::new(assembled.prepare(&RunOptions::default()).ok()?)
         };
         self.described.get_or_init(make).as_ref()
     }
@@ -254,7 +254,7 @@ impl<'r> Sweep<'r> {
         let assembled = AssembledScene::read(&self.plan.scene, &text, self.registry)?;
         let described = self.described();
         let other = described.map(Described::prepared);
-        let mut study = assembled.prepare_after(&Overrides::default(), other)?;
+        let mut study = assembled.prepare_after(&RunOptions::default(), other)?;
         let options = study.options.clone().ok_or(StudyError::NoEnd)?;
         options.check()?;
         let Prepared {

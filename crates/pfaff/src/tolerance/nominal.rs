@@ -10,7 +10,8 @@ use super::error::ToleranceError;
 use super::quantity::Quantity;
 use crate::assembled::AssembledScene;
 use crate::error::StudyError;
-use crate::study::{Overrides, Study};
+use crate::run_options::RunOptions;
+use crate::study::Study;
 
 /// A datum that is displaced.
 #[derive(Clone, Debug)]
@@ -162,7 +163,7 @@ impl Nominal {
 /// numbers as exact ones, and the doubt.
 fn study_of(assembled: AssembledScene) -> Result<(Study, Option<Doubt>), ToleranceError> {
     let (scene, mechanism) = (assembled.scene.clone(), assembled.mechanism.clone());
-    let doubt = match assembled.prepare(&Overrides::default()) {
+    let doubt = match assembled.prepare(&RunOptions::default()) {
         Ok(study) => return Ok((study, None)),
         Err(StudyError::Motion(dynamics::MotionError::RankUndecided(doubt))) => doubt,
         Err(other) => return Err(other.into()),
@@ -171,7 +172,7 @@ fn study_of(assembled: AssembledScene) -> Result<(Study, Option<Doubt>), Toleran
         scene,
         mechanism: mechanism.without_tolerances(),
     };
-    Ok((exact.prepare(&Overrides::default())?, Some(doubt)))
+    Ok((exact.prepare(&RunOptions::default())?, Some(doubt)))
 }
 
 /// Kept rows of C and of Φq at the lower of two ranks.

@@ -4,8 +4,6 @@
 use model::codes::{Code, Entry, Example};
 use serde::Serialize;
 
-use super::{AnalysisDocument, ComponentDocument, DependencyDocument, ReactionDocument};
-
 /// Reason why there is no result.
 #[derive(Clone, Debug, Serialize)]
 pub struct RefusalDocument<'a, P> {
@@ -77,42 +75,6 @@ pub struct EndedDocument {
     pub code: Code,
     /// Why it ended.
     pub error: &'static str,
-}
-
-/// A scene that was read and assembled.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct CheckDocument<'a, P> {
-    /// `true`
-    pub ok: bool,
-    /// Name of the scene.
-    pub scene: &'a str,
-    /// Number of bodies.
-    pub bodies: usize,
-    /// Number of coordinates n_q.
-    pub coordinates: usize,
-    /// Number of velocities n_v.
-    pub velocities: usize,
-    /// Number of holonomic rows m.
-    pub holonomic_rows: usize,
-    /// Number of nonholonomic rows h.
-    pub nonholonomic_rows: usize,
-    /// The largest correction of a coordinate of the start (m, rad).
-    pub start_correction: f64,
-    /// The largest correction of a velocity (m/s, rad/s), if there is a motion.
-    pub start_velocity_correction: Option<f64>,
-    /// Mobility n_v − r.
-    pub mobility: Option<usize>,
-    /// Mobility without the drives.
-    pub mobility_without_drives: Option<usize>,
-    /// Whether no motion is possible; `null` if this is not decided.
-    pub cannot_move: Option<bool>,
-    /// Joints, drives, forces and groups that are in the scene, but not active.
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    pub inactive: &'a [String],
-    /// The warnings of the text with their places: a scene with errors is refused.
-    pub problems: &'a [P],
-    /// Other remarks for the reader.
-    pub warnings: &'a [String],
 }
 
 /// A picture that was written.
@@ -207,129 +169,4 @@ pub struct TemplateDocument<'a> {
     pub name: &'a str,
     /// Its description.
     pub summary: String,
-}
-
-/// Comparison of two scenes.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DiffDocument<'a> {
-    /// `true`
-    pub ok: bool,
-    /// The first scene.
-    pub a: DiffSide<'a>,
-    /// The second scene.
-    pub b: DiffSide<'a>,
-    /// Joints and drives that only the first scene has.
-    pub removed: Vec<DiffReaction<'a>>,
-    /// Joints and drives that only the second scene has.
-    pub added: Vec<DiffReaction<'a>>,
-    /// Joints and drives that differ.
-    pub changed: Vec<DiffChange<'a>>,
-    /// Dependencies that only the first scene has.
-    pub dependencies_gone: &'a [&'a DependencyDocument],
-    /// Dependencies that only the second scene has.
-    pub dependencies_new: &'a [&'a DependencyDocument],
-    /// Differences of the motions; `null` if they were not compared.
-    pub motion: Option<&'a DiffMotion>,
-    /// Why they were not.
-    pub motion_not_compared: Option<&'a str>,
-}
-
-/// One of two scenes.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DiffSide<'a> {
-    scene: &'a str,
-    bodies: usize,
-    rows: usize,
-    rank: usize,
-    redundancy: usize,
-    mobility: usize,
-    mobility_without_drives: Option<usize>,
-}
-
-impl<'a> From<&'a AnalysisDocument> for DiffSide<'a> {
-    fn from(d: &'a AnalysisDocument) -> Self {
-        Self {
-            scene: &d.configuration.scene,
-            bodies: d.configuration.bodies,
-            rows: d.configuration.rows,
-            rank: d.ranks.rank,
-            redundancy: d.ranks.redundancy,
-            mobility: d.ranks.mobility,
-            mobility_without_drives: d.ranks.freedoms.mobility_without_drives(),
-        }
-    }
-}
-
-/// A joint or drive of one of two scenes.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DiffReaction<'a> {
-    /// Its name, unless the object that contains it gives the name.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub name: Option<&'a str>,
-    #[serde(rename = "type")]
-    kind: &'a str,
-    rows: &'a [usize],
-    verdict: &'static str,
-    fragile: bool,
-    components: &'a [ComponentDocument],
-}
-
-impl<'a> From<&'a ReactionDocument> for DiffReaction<'a> {
-    fn from(r: &'a ReactionDocument) -> Self {
-        Self {
-            name: None,
-            kind: r.kind,
-            rows: &r.rows,
-            verdict: r.wrench.verdict,
-            fragile: r.data.fragile,
-            components: &r.components,
-        }
-    }
-}
-
-impl<'a> DiffReaction<'a> {
-    /// With the name of the reaction.
-    #[must_use]
-    pub fn named(r: &'a ReactionDocument) -> Self {
-        Self {
-            name: Some(&r.name),
-            ..r.into()
-        }
-    }
-}
-
-/// A joint or drive that both scenes have.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DiffChange<'a> {
-    /// Its name.
-    pub name: &'a str,
-    /// In the first scene.
-    pub a: DiffReaction<'a>,
-    /// In the second scene.
-    pub b: DiffReaction<'a>,
-}
-
-/// Differences of two motions.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DiffMotion {
-    /// How far both were run (s): to the earlier of their ends.
-    pub t_end: f64,
-    /// Bodies that both scenes have, in the order of the first.
-    pub bodies: Vec<DiffBody>,
-}
-
-/// The largest differences of the motions of a body, and when (s).
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct DiffBody {
-    /// The body.
-    pub body: String,
-    /// Distance of the origins of its frame (m).
-    pub distance: f64,
-    /// Time of the largest distance (s).
-    pub t_distance: f64,
-    /// Difference of angles (rad); in space the angle of the rotation from one orientation to the
-    /// other, up to half a turn.
-    pub angle: f64,
-    /// Time of the largest difference of angles (s).
-    pub t_angle: f64,
 }

@@ -2,12 +2,12 @@
 
 use pfaff::model::Registry;
 use pfaff::report::OutputDirectory;
-use pfaff::{Overrides, Study};
+use pfaff::{RunOptions, Study};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let path = std::env::args().nth(1).ok_or("which scene?")?;
     let text = std::fs::read_to_string(&path)?;
-    let study = Study::read(&path, &text, &Registry::standard(), &Overrides::default())?;
+    let study = Study::read(&path, &text, &Registry::standard(), &RunOptions::default())?;
     for reaction in &study.analyse(0.0, None)?.analysis.reactions {
         println!("{}: {:?}", reaction.name, reaction.wrench.verdict);
     }

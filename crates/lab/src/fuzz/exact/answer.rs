@@ -5,7 +5,7 @@ use pfaff::rank::Limits;
 use pfaff::report::documents::DistributionDocument;
 use pfaff::report::documents::MakeUniqueDocument;
 use pfaff::solvability::{Allowed, Choice, NormWeights, Verdict};
-use pfaff::{AssembledScene, ConfigurationAnalysis, Overrides, StudyError};
+use pfaff::{AssembledScene, ConfigurationAnalysis, RunOptions, StudyError};
 use serde_json::Value;
 
 /// Number of reactions for which the deletions that make them unique are requested.
@@ -33,7 +33,7 @@ pub fn answer(text: &str) -> Result<Value, String> {
 pub fn answer_of(
     assembled: impl Fn() -> Result<AssembledScene, StudyError>,
 ) -> Result<Value, String> {
-    match assembled().and_then(|scene| scene.prepare(&Overrides::default())) {
+    match assembled().and_then(|scene| scene.prepare(&RunOptions::default())) {
         Ok(study) => document(study.analyse(0.0, None)),
         Err(e) if e.only_motion().is_some() => match assembled() {
             Ok(mut scene) => document(scene.analyse(None)),

@@ -6,7 +6,7 @@ use dynamics::{MotionError, MotionOptions, simulate};
 use model::{Reaction, Registry, System};
 use solvability::Stretches;
 
-use pfaff::{AssembledScene, Overrides, Study, StudyError};
+use pfaff::{AssembledScene, RunOptions, Study, StudyError};
 
 /// Relative and absolute tolerance of all runs.
 pub const RTOL: f64 = 1e-11;
@@ -51,12 +51,12 @@ pub struct Run {
 /// # Errors
 /// If the product refuses it.
 pub fn prepared(text: &str, drop: Option<&[usize]>) -> Result<Study, StudyError> {
-    let overrides = Overrides {
+    let overrides = RunOptions {
         rtol: Some(RTOL),
         atol: Some(ATOL),
         max_steps: Some(STEPS),
         drop: drop.map(<[usize]>::to_vec),
-        ..Overrides::default()
+        ..RunOptions::default()
     };
     AssembledScene::read("scene.toml", text, &Registry::standard())?.prepare(&overrides)
 }

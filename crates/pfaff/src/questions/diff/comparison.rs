@@ -7,71 +7,41 @@ use std::ops::ControlFlow;
 use dynamics::{MotionOptions, Sample};
 use model::{FrameState, Mechanism};
 use report::AnalysisDocument;
-use report::documents::{DependencyDocument, DiffBody, DiffMotion, ReactionDocument};
+use report::documents::{DependencyDocument, ReactionDocument};
 
+use super::{DiffBody, DiffMotion};
 use crate::error::StudyError;
 use crate::study::Study;
 
 /// Differences between the verdicts at two starts.
-///
-/// ```
-/// use pfaff::model::Registry;
-/// use pfaff::report::AnalysisDocument;
-/// use pfaff::{AssembledScene, Comparison};
-///
-/// // A bar on two hinges, and the same bar with a hinge and a roller.
-/// let scene = |second: &str| format!(
-///     "scene = {{ name = \"bar\", space = \"plane\" }}
-/// body = [{{ name = \"bar\", mass = 1.0, inertia = 1.0 }}]
-/// joint = [
-///     {{ name = \"left\", type = \"revolute\", bodies = [\"ground\", \"bar\"], at = [-1.0, 0.0] }},
-///     {{ name = \"right\", bodies = [\"ground\", \"bar\"], at = [1.0, 0.0], {second} }},
-/// ]"
-/// );
-/// let document = |second: &str| -> Result<AnalysisDocument, pfaff::StudyError> {
-///     let mut bar = AssembledScene::read("bar.toml", &scene(second), &Registry::standard())?;
-///     let start = bar.analyse(None)?;
-///     Ok(AnalysisDocument::new("bar", &start.analysis, None))
-/// };
-/// let fixed = document("type = \"revolute\"")?;
-/// let relaxed = document("type = \"pin-in-slot\", axis = [1.0, 0.0]")?;
-/// let changed = Comparison::of(&fixed, &relaxed);
-/// assert_eq!((fixed.ranks.redundancy, relaxed.ranks.redundancy), (1, 0));
-/// assert_eq!(changed.verdicts.iter().map(|v| v.name).collect::<Vec<_>>(), ["left", "right"]);
-/// assert_eq!(changed.gone.len(), 1);
-/// # Ok::<(), pfaff::StudyError>(())
-/// ```
 #[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Comparison<'a> {
+pub(super) struct Comparison<'a> {
     /// Joints and drives that only the first scene has.
-    pub removed: Vec<&'a ReactionDocument>,
+    pub(super) removed: Vec<&'a ReactionDocument>,
     /// Joints and drives that only the second scene has.
-    pub added: Vec<&'a ReactionDocument>,
+    pub(super) added: Vec<&'a ReactionDocument>,
     /// Joints and drives whose type, number of rows or verdicts differ, or of which a component
     /// is fragile in only one, in the order of the first scene.
-    pub verdicts: Vec<VerdictChange<'a>>,
+    pub(super) verdicts: Vec<VerdictChange<'a>>,
     /// Dependencies of the first scene that the second does not have.
-    pub gone: Vec<&'a DependencyDocument>,
+    pub(super) gone: Vec<&'a DependencyDocument>,
     /// Dependencies of the second scene that are new.
-    pub new: Vec<&'a DependencyDocument>,
+    pub(super) new: Vec<&'a DependencyDocument>,
 }
 
 /// A joint or drive that both scenes have, with another type or another verdict, or fragile in only
 /// one of them.
 #[derive(Clone, Copy, Debug)]
-#[non_exhaustive]
-pub struct VerdictChange<'a> {
+pub(super) struct VerdictChange<'a> {
     /// Its name.
-    pub name: &'a str,
+    pub(super) name: &'a str,
     /// In the first scene and in the second.
-    pub sides: [&'a ReactionDocument; 2],
+    pub(super) sides: [&'a ReactionDocument; 2],
 }
 
 impl<'a> Comparison<'a> {
     /// Compares the documents of two starts.
-    #[must_use]
-    pub fn of(first: &'a AnalysisDocument, second: &'a AnalysisDocument) -> Self {
+    pub(super) fn of(first: &'a AnalysisDocument, second: &'a AnalysisDocument) -> Self {
         let by_name = |document: &'a AnalysisDocument| -> BTreeMap<&'a str, &'a ReactionDocument> {
             let reactions = document.reactions.iter();
             reactions.map(|r| (r.name.as_str(), r)).collect()
@@ -109,16 +79,6 @@ impl<'a> Comparison<'a> {
             new: unmatched(second, first),
         }
     }
-
-    /// Whether nothing differs.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.removed.is_empty()
-            && self.added.is_empty()
-            && self.verdicts.is_empty()
-            && self.gone.is_empty()
-            && self.new.is_empty()
-    }
 }
 
 impl VerdictChange<'_> {
@@ -155,7 +115,7 @@ const TIMES: f64 = 200.0;
 ///
 /// # Errors
 /// [`StudyError::Motion`]: one of the motions stopped.
-pub fn motions(first: &Study, second: &Study) -> Result<Option<DiffMotion>, StudyError> {
+pub(super) fn motions(first: &Study, second: &Study) -> Result<Option<DiffMotion>, StudyError> {
     let (Some(a), Some(b)) = (&first.options, &second.options) else {
         return Ok(None);
     };

@@ -1,0 +1,83 @@
+//! Can the scene be read and assembled?
+
+mod answer;
+
+use model::System;
+use report::documents::{DataDocument, SensitivityDocument};
+use serde::Deserialize;
+
+pub use answer::CheckAnswer;
+
+use crate::configuration::ConfigurationAnalysis;
+use crate::error::StudyError;
+use crate::question::{Control, Question};
+use crate::refusal::Refusal;
+use crate::start::{Judged, Start};
+
+/// Read and assemble only: report every error of the file, with its place
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "command", derive(clap::Args))]
+#[cfg_attr(feature = "command", command(after_help = include_str!("check/examples.txt")))]
+pub struct Check {}
+
+/// Number of fragile reactions that have a warning each.
+const FRAGILE_TOLD: usize = 10;
+
+impl Question for Check {
+    const NAME: &'static str = "check";
+    type Subject<'s> = &'s Start<'s>;
+    type Answer = CheckAnswer;
+
+    fn answer(&self, of: &Start<'_>, control: &Control<'_>) -> Result<CheckAnswer, Refusal> {
+        let judged = of.judged(control)?;
+        let answered = match judged.as_ref() {
+            Judged::Moves(study) => study.check_drives().and_then(|()| {
+                let start = study.analyse(0.0, None)?;
+                let prepared = &study.prepared;
+                let mut answer = CheckAnswer::new(judged.parts(), &prepared.assembly.correction);
+                answer.moves(&start.freedoms()?, &prepared.mechanism);
+                answer.start_velocity_correction =
+                    Some(answer::largest(&prepared.velocity_correction));
+                let hanging = fragile(&start)?;
+                let more = hanging.len().saturating_sub(FRAGILE_TOLD);
+                let warnings = &mut answer.warnings;
+                warnings.extend(hanging.into_iter().take(FRAGILE_TOLD));
+                let data = DataDocument::new(&start.analysis);
+                warnings.extend(data.warning(start.analysis.mobility()));
+                warnings.extend(study.cannot_begin());
+                if more > 0 {
+                    warnings.push(
+                        "more reactions are unique but fragile: `pfaff analyze` names all"
+                            .to_owned(),
+                    );
+                }
+                Ok(answer)
+            }),
+            // The error concerns the motion only, so the start can still be analysed.
+            Judged::Stands(stands) => {
+                let mechanism = &stands.assembled.mechanism;
+                let (described, _) = mechanism.described_state();
+                let correction = mechanism.difference_of(&stands.kept.state.q, &described);
+                let mut answer = CheckAnswer::new(judged.parts(), &correction);
+                answer.warnings.push(stands.warning.clone());
+                Ok(answer)
+            }
+        };
+        answered.map_err(|e| of.refusal(e))
+    }
+}
+
+/// Sentences on fragile reactions, then on fragile sums.
+fn fragile(start: &ConfigurationAnalysis<'_>) -> Result<Vec<String>, StudyError> {
+    let layout = start.mechanism.layout();
+    let reactions = start.sensitivities()?;
+    let mut sentences = reactions.sentences(layout);
+    for (name, found) in start.group_sensitivities(&reactions)? {
+        // Separate reactions have their own sentences.
+        if !found.numbers.is_empty() {
+            sentences.extend(SensitivityDocument::of_group(&found, &name, layout).hangs_on);
+        }
+    }
+    Ok(sentences)
+}

@@ -1,0 +1,127 @@
+//! What a scene is, once it is assembled.
+
+use model::{Mechanism, System};
+use report::documents::FreedomsDocument;
+use scene::{Diagnostic, Scene};
+use serde::Serialize;
+use solvability::Freedoms;
+
+use crate::question::Answer;
+use crate::words::{Block, count};
+
+/// A scene that was read and assembled.
+#[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
+pub struct CheckAnswer {
+    /// `true`
+    pub ok: bool,
+    /// Name of the scene.
+    pub scene: String,
+    /// Number of bodies.
+    pub bodies: usize,
+    /// Number of coordinates n_q.
+    pub coordinates: usize,
+    /// Number of velocities n_v.
+    pub velocities: usize,
+    /// Number of holonomic rows m.
+    pub holonomic_rows: usize,
+    /// Number of nonholonomic rows h.
+    pub nonholonomic_rows: usize,
+    /// The largest correction of a coordinate of the start (m, rad).
+    pub start_correction: f64,
+    /// The largest correction of a velocity (m/s, rad/s), if there is a motion.
+    pub start_velocity_correction: Option<f64>,
+    /// Mobility n_v − r.
+    pub mobility: Option<usize>,
+    /// Mobility without the drives.
+    pub mobility_without_drives: Option<usize>,
+    /// Whether no motion is possible; `null` if this is not decided.
+    pub cannot_move: Option<bool>,
+    /// Joints, drives, forces and groups that are in the scene, but not active.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub inactive: Vec<String>,
+    /// The warnings of the text with their places: a scene with errors is refused.
+    pub problems: Vec<Diagnostic>,
+    /// The same as sentences, then why the mechanism cannot be moved, if that is the only fault,
+    /// and what the start shows.
+    pub warnings: Vec<String>,
+    /// Number of joints and drives.
+    #[serde(skip)]
+    reactions: usize,
+    /// The mobility in words.
+    #[serde(skip)]
+    freedoms: Option<String>,
+}
+
+impl CheckAnswer {
+    /// The answer for an assembled scene whose coordinates were corrected by this.
+    pub(super) fn new((scene, mechanism): (&Scene, &Mechanism), correction: &[f64]) -> Self {
+        let layout = mechanism.layout();
+        Self {
+            ok: true,
+            scene: scene.name().to_owned(),
+            bodies: mechanism.bodies().len(),
+            coordinates: layout.n_q - layout.turns,
+            velocities: layout.n_v,
+            holonomic_rows: layout.m,
+            nonholonomic_rows: layout.h,
+            start_correction: largest(correction),
+            start_velocity_correction: None,
+            mobility: None,
+            mobility_without_drives: None,
+            cannot_move: None,
+            inactive: scene.inactive.iter().map(ToString::to_string).collect(),
+            problems: scene.warnings.clone(),
+            warnings: scene.cautions().collect(),
+            reactions: layout.groups.len(),
+            freedoms: None,
+        }
+    }
+
+    /// Adds how the mechanism can move.
+    pub(super) fn moves(&mut self, freedoms: &Freedoms, mechanism: &Mechanism) {
+        let document = FreedomsDocument::new(freedoms, mechanism);
+        self.mobility = Some(freedoms.mobility);
+        self.mobility_without_drives = document.mobility_without_drives();
+        self.cannot_move = document.cannot_move;
+        self.freedoms = Some(document.summary(freedoms.mobility));
+    }
+}
+
+impl Answer for CheckAnswer {
+    fn words(&self) -> Vec<Block> {
+        let (m, h) = (self.holonomic_rows, self.nonholonomic_rows);
+        let bodies = count(self.bodies, "body", "bodies");
+        let reactions = count(self.reactions, "joint or drive", "joints and drives");
+        let rows = count(m + h, "row", "rows");
+        let mut blocks = vec![Block::sentence(format!(
+            "{}: {bodies}, {reactions}, {rows} ({m} holonomic, {h} nonholonomic)",
+            self.scene
+        ))];
+        blocks.extend(self.freedoms.iter().map(Block::sentence));
+        let velocity = match self.start_velocity_correction {
+            Some(correction) => format!(" and {correction:.1e} in velocity"),
+            None => String::new(),
+        };
+        blocks.push(Block::sentence(format!(
+            "assembled; the start was corrected by {:.1e} in position{velocity}",
+            self.start_correction
+        )));
+        if !self.inactive.is_empty() {
+            blocks.push(Block::after("not active: ", self.inactive.join(", ")));
+        }
+        let codes = self
+            .problems
+            .iter()
+            .map(|d| format!("warning[{}]: ", d.code));
+        let heads = codes.chain(std::iter::repeat("warning: ".to_owned()));
+        let warnings = heads.zip(&self.warnings);
+        blocks.extend(warnings.map(|(head, warning)| Block::after(head, warning)));
+        blocks
+    }
+}
+
+/// The largest size of the numbers.
+pub(super) fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |a: f64, x| a.max(x.abs()))
+}

@@ -1,0 +1,236 @@
+//! The differences of two scenes.
+
+use std::path::Path;
+
+use report::AnalysisDocument;
+use report::documents::{ComponentDocument, DependencyDocument, ReactionDocument};
+use serde::Serialize;
+
+use super::comparison::Comparison;
+use crate::question::Answer;
+use crate::words::Block;
+
+/// Comparison of two scenes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DiffAnswer {
+    /// `true`
+    pub ok: bool,
+    /// The first scene.
+    pub a: DiffSide,
+    /// The second scene.
+    pub b: DiffSide,
+    /// Joints and drives that only the first scene has.
+    pub removed: Vec<DiffReaction>,
+    /// Joints and drives that only the second scene has.
+    pub added: Vec<DiffReaction>,
+    /// Joints and drives that differ.
+    pub changed: Vec<DiffChange>,
+    /// Dependencies that only the first scene has.
+    pub dependencies_gone: Vec<DependencyDocument>,
+    /// Dependencies that only the second scene has.
+    pub dependencies_new: Vec<DependencyDocument>,
+    /// Differences of the motions; `null` if they were not compared.
+    pub motion: Option<DiffMotion>,
+    /// Why they were not.
+    pub motion_not_compared: Option<String>,
+}
+
+impl DiffAnswer {
+    /// The differences of two starts, whose scenes have these names in messages, and of their
+    /// motions, or why those are not compared.
+    pub(super) fn new(
+        names: [&str; 2],
+        documents: &[AnalysisDocument; 2],
+        motion: Result<DiffMotion, String>,
+    ) -> Self {
+        let [a, b] = documents;
+        let c = Comparison::of(a, b);
+        let named = |list: &[&ReactionDocument]| -> Vec<DiffReaction> {
+            let named = |r: &&ReactionDocument| DiffReaction {
+                name: Some(r.name.clone()),
+                ..(*r).into()
+            };
+            list.iter().map(named).collect()
+        };
+        let changed = c.verdicts.iter().map(|change| DiffChange {
+            name: change.name.to_owned(),
+            a: change.sides[0].into(),
+            b: change.sides[1].into(),
+        });
+        let [in_a, in_b] = in_short(names);
+        let owned = |list: &[&DependencyDocument]| list.iter().copied().cloned().collect();
+        let (motion, motion_not_compared) = match motion {
+            Ok(motion) => (Some(motion), None),
+            Err(why) => (None, Some(why)),
+        };
+        Self {
+            ok: true,
+            a: DiffSide::of(in_a, a),
+            b: DiffSide::of(in_b, b),
+            removed: named(&c.removed),
+            added: named(&c.added),
+            changed: changed.collect(),
+            dependencies_gone: owned(&c.gone),
+            dependencies_new: owned(&c.new),
+            motion,
+            motion_not_compared,
+        }
+    }
+}
+
+impl Answer for DiffAnswer {
+    fn words(&self) -> Vec<Block> {
+        super::words::of(self)
+    }
+}
+
+/// Names of files, with their directories only if the names are equal otherwise.
+fn in_short(names: [&str; 2]) -> [String; 2] {
+    let short = names.map(|name| match Path::new(name).file_name() {
+        Some(file) => file.to_string_lossy().into_owned(),
+        None => name.to_owned(),
+    });
+    if short[0] == short[1] {
+        names.map(str::to_owned)
+    } else {
+        short
+    }
+}
+
+/// One of two scenes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct DiffSide {
+    /// Its name.
+    pub scene: String,
+    /// Number of bodies.
+    pub bodies: usize,
+    /// Number of rows.
+    pub rows: usize,
+    /// Rank of C.
+    pub rank: usize,
+    /// Degree of redundancy.
+    pub redundancy: usize,
+    /// Degrees of freedom.
+    pub mobility: usize,
+    /// The same without its drives, if it has some.
+    pub mobility_without_drives: Option<usize>,
+    /// Name of its file.
+    #[serde(skip)]
+    pub(super) file: String,
+    /// Numbers of joints and drives: all, those that are not unique, and fragile ones.
+    #[serde(skip)]
+    pub(super) reactions: [usize; 3],
+}
+
+impl DiffSide {
+    fn of(file: String, d: &AnalysisDocument) -> Self {
+        let open = |r: &&ReactionDocument| r.wrench.verdict == "not_unique";
+        Self {
+            scene: d.configuration.scene.clone(),
+            bodies: d.configuration.bodies,
+            rows: d.configuration.rows,
+            rank: d.ranks.rank,
+            redundancy: d.ranks.redundancy,
+            mobility: d.ranks.mobility,
+            mobility_without_drives: d.ranks.freedoms.mobility_without_drives(),
+            file,
+            reactions: [
+                d.reactions.len(),
+                d.reactions.iter().filter(open).count(),
+                d.fragile_reactions().count(),
+            ],
+        }
+    }
+}
+
+/// A joint or drive of one of two scenes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct DiffReaction {
+    /// Its name, unless the object that contains it gives the name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Its type.
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    /// Its rows, from 1.
+    pub rows: Vec<usize>,
+    /// Its verdict.
+    pub verdict: &'static str,
+    /// Whether it, or a component, is fragile.
+    pub fragile: bool,
+    /// Its components.
+    pub components: Vec<ComponentDocument>,
+    /// The verdict in words.
+    #[serde(skip)]
+    pub(super) said: String,
+}
+
+impl From<&ReactionDocument> for DiffReaction {
+    fn from(r: &ReactionDocument) -> Self {
+        Self {
+            name: None,
+            kind: r.kind,
+            rows: r.rows.clone(),
+            verdict: r.wrench.verdict,
+            fragile: r.data.fragile,
+            components: r.components.clone(),
+            said: said(r),
+        }
+    }
+}
+
+/// The verdict of a reaction with its components that are not unique or fragile.
+fn said(r: &ReactionDocument) -> String {
+    let names = |is: &dyn Fn(&&ComponentDocument) -> bool| -> String {
+        let those = r.components.iter().filter(|c| is(c)).map(|c| c.name);
+        those.collect::<Vec<_>>().join(", ")
+    };
+    let mut notes = vec![names(&|c| c.verdict.verdict == "not_unique")];
+    let fragile = r.fragile_names();
+    if !fragile.is_empty() && fragile != [r.name.clone()] {
+        notes.push(format!("FRAGILE: {}", names(&|c| c.data.fragile)));
+    }
+    notes.retain(|note| !note.is_empty());
+    match notes.as_slice() {
+        [] => r.said(),
+        notes => format!("{} ({})", r.said(), notes.join("; ")),
+    }
+}
+
+/// A joint or drive that both scenes have.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DiffChange {
+    /// Its name.
+    pub name: String,
+    /// In the first scene.
+    pub a: DiffReaction,
+    /// In the second scene.
+    pub b: DiffReaction,
+}
+
+/// Differences of two motions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DiffMotion {
+    /// How far both were run (s): to the earlier of their ends.
+    pub t_end: f64,
+    /// Bodies that both scenes have, in the order of the first.
+    pub bodies: Vec<DiffBody>,
+}
+
+/// The largest differences of the motions of a body, and when (s).
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct DiffBody {
+    /// The body.
+    pub body: String,
+    /// Distance of the origins of its frame (m).
+    pub distance: f64,
+    /// Time of the largest distance (s).
+    pub t_distance: f64,
+    /// Difference of angles (rad); in space the angle of the rotation from one orientation to the
+    /// other, up to half a turn.
+    pub angle: f64,
+    /// Time of the largest difference of angles (s).
+    pub t_angle: f64,
+}

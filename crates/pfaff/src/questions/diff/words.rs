@@ -1,0 +1,131 @@
+//! The differences of two scenes in words.
+
+use std::cmp::Ordering;
+
+use report::documents::DependencyDocument;
+
+use super::{DiffAnswer, DiffMotion, DiffReaction};
+use crate::words::Block;
+
+/// Number of bodies whose motion is listed; the document contains all.
+const LISTED: usize = 12;
+
+pub(super) fn of(d: &DiffAnswer) -> Vec<Block> {
+    let mut blocks = vec![numbers(d)];
+    let reactions = reactions(d);
+    let dependencies = [
+        ("dependencies gone:", &d.dependencies_gone),
+        ("dependencies new:", &d.dependencies_new),
+    ];
+    let is_same = reactions.is_none() && dependencies.iter().all(|(_, list)| list.is_empty());
+    if is_same {
+        let same = "no joint, drive, verdict or dependency differs";
+        blocks.push(Block::sentence(same));
+    }
+    blocks.extend(reactions);
+    for (heading, list) in dependencies {
+        if !list.is_empty() {
+            blocks.push(Block::Heading(heading.to_owned()));
+            let text = |d: &DependencyDocument| Block::after("  - ", &d.text);
+            blocks.extend(list.iter().map(text));
+        }
+    }
+    match (&d.motion, &d.motion_not_compared) {
+        (Some(motion), _) => blocks.extend(moved(motion)),
+        (None, Some(why)) => {
+            blocks.push(Block::Heading(format!("motions not compared: {why}")));
+        }
+        (None, None) => {}
+    }
+    blocks
+}
+
+/// Counts of both scenes and their difference.
+fn numbers(d: &DiffAnswer) -> Block {
+    let (a, b) = (&d.a, &d.b);
+    // Of scenes without drives it is the same number again.
+    let is_driven = [a, b].iter().any(|d| d.mobility_without_drives.is_some());
+    let [x, y] = [a, b].map(|d| d.mobility_without_drives.unwrap_or(d.mobility));
+    let released = is_driven.then_some(("mobility without drives", x, y));
+    let ([all, open, fragile], [all_b, open_b, fragile_b]) = (a.reactions, b.reactions);
+    let fragile = (fragile + fragile_b > 0).then_some(("fragile", fragile, fragile_b));
+    let counts = [
+        ("bodies", a.bodies, b.bodies),
+        ("joints and drives", all, all_b),
+        ("rows", a.rows, b.rows),
+        ("rank", a.rank, b.rank),
+        ("redundancy", a.redundancy, b.redundancy),
+        ("mobility", a.mobility, b.mobility),
+    ];
+    let counts = counts.into_iter().chain(released);
+    let counts = counts.chain([("not unique", open, open_b)]).chain(fragile);
+    let lines = counts.map(|(what, x, y)| {
+        let change = match y.cmp(&x) {
+            Ordering::Equal => String::new(),
+            Ordering::Greater => format!("+{}", y - x),
+            Ordering::Less => format!("−{}", x - y),
+        };
+        [what.to_owned(), x.to_string(), y.to_string(), change]
+    });
+    Block::table(["", &a.file, &b.file, ""], lines)
+}
+
+/// Joints and drives that were added, removed or changed; `None` if there are none.
+fn reactions(d: &DiffAnswer) -> Option<Block> {
+    let absent = || "–".to_owned();
+    let name = |r: &DiffReaction| r.name.clone().unwrap_or_default();
+    let changed = d.changed.iter().map(|change| {
+        let both = change.a.kind != change.b.kind;
+        let [a, b] = [&change.a, &change.b].map(|r| words(r, both));
+        [change.name.clone(), a, b]
+    });
+    let gone = d
+        .removed
+        .iter()
+        .map(|r| [name(r), words(r, true), absent()]);
+    let new = d.added.iter().map(|r| [name(r), absent(), words(r, true)]);
+    let lines: Vec<_> = changed.chain(gone).chain(new).collect();
+    let columns = ["reaction", &d.a.file, &d.b.file];
+    (!lines.is_empty()).then(|| Block::table(columns, lines))
+}
+
+/// The verdict of a reaction, with its type if the types differ.
+fn words(r: &DiffReaction, with_type: bool) -> String {
+    if with_type {
+        format!("{}, {}", r.kind, r.said)
+    } else {
+        r.said.clone()
+    }
+}
+
+/// Bodies by the distance of their motions, the largest first.
+fn moved(motion: &DiffMotion) -> Vec<Block> {
+    if motion.bodies.is_empty() {
+        let none = "no body has the same name in both scenes: no motion to compare";
+        return vec![Block::Heading(none.to_owned())];
+    }
+    let mut bodies: Vec<_> = motion.bodies.iter().collect();
+    bodies.sort_by(|a, b| b.distance.total_cmp(&a.distance));
+    let lines = bodies.iter().take(LISTED).map(|body| {
+        [
+            body.body.clone(),
+            format!("{:.1e}", body.distance),
+            format!("{:.3}", body.t_distance),
+            format!("{:.1e}", body.angle),
+            format!("{:.3}", body.t_angle),
+        ]
+    });
+    let columns = ["body", "place (m)", "at t (s)", "angle (rad)", "at t (s)"];
+    let heading = format!(
+        "motion to t = {} s, largest difference of each body:",
+        motion.t_end
+    );
+    let mut blocks = vec![Block::Heading(heading), Block::table(columns, lines)];
+    if bodies.len() > LISTED {
+        let more = bodies.len() - LISTED;
+        blocks.push(Block::sentence(format!(
+            "and {more} more, none farther apart"
+        )));
+    }
+    blocks
+}

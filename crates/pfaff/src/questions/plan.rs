@@ -1,0 +1,52 @@
+//! What does a run compute and omit, and why?
+
+mod answer;
+mod words;
+
+use serde::Deserialize;
+
+pub use answer::{PlanAnswer, PlannedComponent, PlannedDecision, PlannedSaving};
+
+use crate::question::{Control, Question};
+use crate::refusal::Refusal;
+use crate::run_options::RunOptions;
+use crate::start::Start;
+use crate::sweep::{Axis, Sweep, SweepError};
+
+/// What a run of the scene computes and omits, and why
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "command", derive(clap::Args))]
+#[cfg_attr(feature = "command", command(after_help = include_str!("plan/examples.txt")))]
+pub struct Plan {
+    /// Also say how the runs of a sweep with these values are evaluated: as of `sweep`
+    #[cfg_attr(feature = "command", arg(long, value_name = "KEY=VALUES"))]
+    pub vary: Vec<Axis>,
+    /// The run
+    #[cfg_attr(feature = "command", command(flatten))]
+    pub run: RunOptions,
+}
+
+impl Question for Plan {
+    const NAME: &'static str = "plan";
+    type Subject<'s> = &'s Start<'s>;
+    type Answer = PlanAnswer;
+
+    fn answer(&self, of: &Start<'_>, control: &Control<'_>) -> Result<PlanAnswer, Refusal> {
+        let study = of.prepared(&self.run, control)?;
+        let plan = study.plan().map_err(|e| of.refusal(e))?;
+        let memory = study.memory(of.text.len()).map_err(|e| of.refusal(e))?;
+        let sweep = match self.vary.as_slice() {
+            [] => None,
+            axes => {
+                let sweep = Sweep::read(&of.name, &of.text, of.registry, axes.to_vec());
+                let sweep = sweep.map_err(|e| match e {
+                    SweepError::Study(e) => of.refusal(e),
+                    other => other.into(),
+                })?;
+                Some(sweep.evaluation())
+            }
+        };
+        Ok(PlanAnswer::new(&plan, memory, sweep))
+    }
+}

@@ -1,0 +1,49 @@
+//! The plan of a run in words.
+
+use super::{PlanAnswer, PlannedDecision};
+use crate::memory::Bytes;
+use crate::words::{Block, count};
+
+/// One table for the whole mechanism, and one for each component if there are several.
+pub(super) fn of(d: &PlanAnswer) -> Vec<Block> {
+    let memory = Bytes(d.memory as u64);
+    let (scene, t_end) = (&d.scene, d.t_end);
+    let (formulation, stabilisation) = (d.formulation, d.stabilisation);
+    let mut blocks = vec![
+        Block::sentence(format!(
+            "{scene}: the plan of a run to t = {t_end} s ({formulation}, {stabilisation}), about {memory} of memory"
+        )),
+        table(d, None),
+    ];
+    if d.components.len() > 1 {
+        for component in &d.components {
+            let rows = component.holonomic_rows + component.nonholonomic_rows;
+            let velocities = count(component.velocities, "velocity", "velocities");
+            let rows = count(rows, "row", "rows");
+            let (name, rank) = (&component.name, component.rank);
+            let heading = format!("{name}: {velocities}, {rows}, rank {rank}");
+            blocks.push(Block::Heading(heading));
+            blocks.push(table(d, Some(name)));
+        }
+    }
+    if let Some(sweep) = &d.sweep {
+        blocks.push(Block::after("runs of the sweep: ", sweep));
+    }
+    blocks
+}
+
+/// The decisions about a component, or about the whole.
+fn table(d: &PlanAnswer, component: Option<&str>) -> Block {
+    let of = |line: &&PlannedDecision| line.component.as_deref() == component;
+    let lines = d.decisions.iter().filter(of).map(|line| {
+        [
+            line.decision.replace('_', " "),
+            line.taken.clone(),
+            line.saves
+                .as_ref()
+                .map_or(String::new(), ToString::to_string),
+            line.reason.clone(),
+        ]
+    });
+    Block::table(["decision", "taken", "saves", "reason"], lines)
+}
