@@ -14,7 +14,6 @@ use pfaff::command::named;
 use pfaff::import::Base;
 use pfaff::run_options::row;
 use pfaff::sweep::{Axis, Shard};
-use pfaff::tolerance::Variation;
 
 pub(crate) use known::{Known, Settings, in_si};
 use values::joint_value;
@@ -48,9 +47,6 @@ pub(crate) enum Command {
     /// Many runs with other numbers in the scene: parallel, resumable, in shards
     #[command(after_help = examples::SWEEP)]
     Sweep(Sweep),
-    /// Data within their tolerances: how far verdicts, reactions and places hold
-    #[command(after_help = examples::TOLERANCE)]
-    Tolerance(Tolerance),
     /// Error versus run time, for every method and tolerance
     #[command(after_help = examples::WORK_PRECISION)]
     WorkPrecision(WorkPrecision),
@@ -87,7 +83,6 @@ impl Command {
             Self::Analyze(Analyze { json, .. })
             | Self::Simulate(Simulate { json, .. })
             | Self::Sweep(Sweep { json, .. })
-            | Self::Tolerance(Tolerance { json, .. })
             | Self::WorkPrecision(WorkPrecision { json, .. })
             | Self::New(New { json, .. })
             | Self::Import(Import { json, .. })
@@ -210,43 +205,6 @@ pub(crate) struct Sweep {
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["vary", "shard", "threads", "keep_rows"])]
     pub(crate) merge: Vec<PathBuf>,
     /// The summary as one JSON document on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Args)]
-pub(crate) struct Tolerance {
-    /// Scene file, or - for standard input
-    pub(crate) scene: PathBuf,
-    /// Number of samples
-    #[arg(long, value_name = "N", default_value_t = pfaff::tolerance::SAMPLES)]
-    pub(crate) runs: usize,
-    /// A parameter or number of the scene that varies besides, and by how much: KEY=±VALUE or
-    /// KEY=±P%; may be given several times
-    #[arg(long, value_name = "KEY=±VALUE")]
-    pub(crate) vary: Vec<Variation>,
-    /// Another seed gives other samples
-    #[arg(long, value_name = "S", default_value_t = 1)]
-    pub(crate) seed: u64,
-    /// Time of the motion at which the samples are analysed (s)
-    #[arg(
-        long,
-        value_name = "T",
-        default_value_t = 0.0,
-        allow_hyphen_values = true
-    )]
-    pub(crate) at_time: f64,
-    /// Directory for the samples as a table, the document, and a page
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Also replace files there that pfaff has not written
-    #[arg(long, requires = "out")]
-    pub(crate) force: bool,
-    #[command(flatten)]
-    pub(crate) known: Known,
-    #[command(flatten)]
-    pub(crate) resources: Resources,
-    /// Ranges and counts as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -3,10 +3,9 @@
 
 use std::ffi::OsStr;
 use std::path::PathBuf;
-use std::sync::Mutex;
 
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand, ValueHint, value_parser};
-use pfaff::question::{Control, Ending, Place, Progress};
+use pfaff::question::{Control, Ending, Place};
 use pfaff::questions::{Facts, Questions};
 use pfaff::report::FileError;
 use pfaff::words;
@@ -14,11 +13,12 @@ use pfaff::words;
 use crate::args::Known;
 use crate::console::Console;
 use crate::input::Source;
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Interrupt, NOTHING_WRITTEN};
 use crate::output::{Answer, Failure, Files, Outcome, directory};
-use crate::resources::{Resources, Stage};
-use crate::simulate::origin;
+use crate::progress::Progress;
+use crate::resources::Resources;
 use crate::watch;
+use crate::work_precision::provenance;
 
 /// A question that is asked on the command line.
 pub(crate) struct Asked {
@@ -139,10 +139,12 @@ impl Asked {
         }
         self.of.resources.apply(console);
         if self.of.watch {
-            return watch::run(&self.scenes, console, || Ok(self.asked(console)?.0));
+            return watch::run(&self.scenes, console, || {
+                Ok(self.asked(console, &|| false)?.0)
+            });
         }
-        Interrupt::ends_at_once()?;
-        let (text, ending) = self.asked(console)?;
+        let interrupt = Interrupt::listen_with(|| NOTHING_WRITTEN.to_owned())?;
+        let (text, ending) = self.asked(console, &|| interrupt.is_asked())?;
         match ending {
             Ending::Complete => console.print(&text),
             Ending::Partial { .. } => Err(console.incomplete(&text)),
@@ -150,7 +152,11 @@ impl Asked {
     }
 
     /// The answer as text, after its files are written.
-    fn asked(&self, console: &Console<'_>) -> Result<(String, Ending), Failure> {
+    fn asked(
+        &self,
+        console: &Console<'_>,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<(String, Ending), Failure> {
         let CommonOptions {
             known, resources, ..
         } = &self.of;
@@ -163,36 +169,40 @@ impl Asked {
             .iter()
             .map(read)
             .collect::<Result<Vec<_>, _>>()?;
-        let out = self.place.as_ref().and_then(|place| place.out.as_ref());
-        let stage = Mutex::new(None);
+        let out = self.place.as_ref().and_then(|place| {
+            let path = place.out.as_ref()?;
+            Some((path, self.facts.output?.family, place.force))
+        });
+        // A place that is none is refused before anything is computed.
+        let place = out.map(|(path, family, force)| {
+            Ok::<_, Failure>((path, family, directory(path, family, force)?))
+        });
+        let place = place.transpose()?;
+        let shown = Progress::default();
         let control = Control {
-            progress: &|Progress::Stage(what, bytes)| {
-                if let Ok(mut stage) = stage.lock() {
-                    // The one before is removed first.
-                    *stage = None;
-                    *stage = Some(Stage::begin(bytes, what));
-                }
-            },
-            wants_files: out.is_some(),
-            origin: &origin(),
-            ..Control::quiet()
+            stop,
+            progress: &|progress| shown.show(progress),
+            wants_files: place.is_some(),
+            provenance: &provenance(),
+            threads: resources.threads,
         };
         let scenes: Vec<_> = scenes.iter().collect();
         let answer = self.question.as_question().ask(&scenes, &control)?;
-        drop(stage);
-        let mut written = String::new();
-        if let (Some(path), Some(output), Some(place)) = (out, self.facts.output, &self.place) {
-            let directory = directory(path, output.family, place.force)?;
-            let mut files = NamedFiles {
-                files: Files::of(&directory, output.family)?,
-                names: Vec::new(),
-            };
-            answer.files(&mut files)?;
-            let NamedFiles { files, names } = files;
-            let beside = files.finish()?;
-            let said = format!("written to {}: {}", path.display(), names.join(", "));
-            written = format!("\n{}{beside}", words::wrapped("", &said));
-        }
+        drop(shown);
+        let written = match place {
+            None => String::new(),
+            Some((path, family, directory)) => {
+                let mut files = NamedFiles {
+                    files: Files::of(&directory, family)?,
+                    names: Vec::new(),
+                };
+                answer.files(&mut files)?;
+                let NamedFiles { files, names } = files;
+                let beside = files.finish()?;
+                let said = format!("written to {}: {}", path.display(), names.join(", "));
+                format!("\n{}{beside}", words::wrapped("", &said))
+            }
+        };
         let text = match self.answer() {
             Answer::Json => answer.json()?,
             Answer::Words => words::text(&answer.words()) + &written,

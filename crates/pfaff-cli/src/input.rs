@@ -4,6 +4,7 @@ use std::io;
 use std::path::Path;
 
 use pfaff::model::{Registry, Tolerance};
+use pfaff::question::Progress::Stage;
 use pfaff::scene::{KeyError, Template, nearest};
 use pfaff::source;
 use pfaff::start::Start;
@@ -12,7 +13,8 @@ use pfaff::{AssembledScene, RunOptions, Study, StudyError};
 use crate::args::{Known, Settings};
 use crate::console::Console;
 use crate::output::{Failure, Refusal};
-use crate::resources::{Resources, Stage};
+use crate::progress::Progress;
+use crate::resources::Resources;
 
 pub use pfaff::source::LARGEST;
 
@@ -77,7 +79,8 @@ impl<'r> Source<'r> {
         assembled: AssembledScene,
         overrides: &RunOptions,
     ) -> Result<Study, StudyError> {
-        let _said = Stage::begin(self.text.len(), "assembling and choosing rows");
+        let shown = Progress::default();
+        shown.show(Stage("assembling and choosing rows", self.text.len()));
         assembled.prepare(overrides)
     }
 

@@ -13,11 +13,11 @@ mod manual;
 mod new;
 pub mod output;
 mod picture;
+mod progress;
 mod resources;
 mod simulate;
 mod sweep;
 mod template;
-mod tolerance;
 mod view;
 mod watch;
 pub mod work_precision;
@@ -147,7 +147,6 @@ impl CommandLine for Arguments {
             Command::Analyze(a) => analyze::run(a, console),
             Command::Simulate(a) => simulate::run(a, console),
             Command::Sweep(a) => sweep::run(a, console),
-            Command::Tolerance(a) => tolerance::run(a, console),
             Command::WorkPrecision(a) => work_precision::run(a, console),
             Command::New(a) => new::run(a, console),
             Command::Import(a) => import::run(a, console),

@@ -3,17 +3,16 @@
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread;
-use std::time::Duration;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::AssembledScene;
 use pfaff::memory::{Budget, Bytes};
+use pfaff::question::Progress::Stage;
 
 use crate::console::Console;
 use crate::input::Source;
 use crate::output::Failure;
+use crate::progress::Progress;
 
 #[derive(Args, Clone, Copy, Default)]
 pub(crate) struct Resources {
@@ -50,7 +49,8 @@ impl Resources {
     /// Reads the scene and builds its mechanism, if the memory suffices for the mechanism and its
     /// verdicts.
     pub(crate) fn assembled(self, source: &Source) -> Result<AssembledScene, Failure> {
-        let _said = Stage::begin(source.text.len(), "reading and building");
+        let shown = Progress::default();
+        shown.show(Stage("reading and building", source.text.len()));
         let of = (source.name.as_str(), source.text.as_str());
         Ok(self
             .memory
@@ -74,38 +74,6 @@ impl Memory {
         Budget {
             limit: self.max_memory,
             option: "--max-memory",
-        }
-    }
-}
-
-/// Texts of at least this size (bytes) take long to read.
-const LONG: usize = 1 << 20;
-
-/// A message on a terminal that names the present step of long work; dropping it removes the
-/// message.
-pub(crate) struct Stage(Option<ProgressBar>);
-
-impl Stage {
-    pub(crate) fn begin(size: usize, what: &str) -> Self {
-        Self((size >= LONG).then(|| {
-            let bar = ProgressBar::new_spinner();
-            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {
-                bar.set_style(style);
-            }
-            bar.set_message(format!("{what}: {}", Bytes(size as u64)));
-            // The bar ticks on a thread of its own; without one it stands still.
-            if !bar.is_hidden() && thread::Builder::new().spawn(|| ()).is_ok() {
-                bar.enable_steady_tick(Duration::from_millis(100));
-            }
-            bar
-        }))
-    }
-}
-
-impl Drop for Stage {
-    fn drop(&mut self) {
-        if let Some(bar) = &self.0 {
-            bar.finish_and_clear();
         }
     }
 }

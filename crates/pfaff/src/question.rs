@@ -2,10 +2,11 @@
 //! files. Each question is one folder of [`crate::questions`]; whoever asks (the command, Python)
 //! knows none by name.
 
+use std::num::NonZeroUsize;
 use std::sync::LazyLock;
 
 use model::codes::Code;
-use report::{Family, FileError, Origin};
+use report::{Family, FileError, Origin, Provenance};
 use serde::{Deserialize, Serialize};
 
 use crate::refusal::{Refusal, json};
@@ -94,6 +95,15 @@ pub enum Ending {
     },
 }
 
+impl Ending {
+    /// A part, since a stop was requested.
+    #[must_use]
+    pub fn interrupted(error: String) -> Self {
+        let code = const { Code::new(8) };
+        Self::Partial { code, error }
+    }
+}
+
 /// The files of an answer.
 #[derive(Clone, Copy, Debug)]
 pub struct Output {
@@ -121,12 +131,22 @@ pub struct Control<'c> {
     pub progress: &'c (dyn Fn(Progress) + Sync),
     /// Whether the files of the answer are wanted, too.
     pub wants_files: bool,
-    /// Who asks: named on pages.
-    pub origin: &'c Origin,
+    /// Who asks, with what, when: named on pages.
+    pub provenance: &'c Provenance,
+    /// Number of threads; `None` means one for each core.
+    pub threads: Option<NonZeroUsize>,
 }
 
 /// Whoever does not say.
-static UNNAMED: LazyLock<Origin> = LazyLock::new(Origin::default);
+static UNNAMED: LazyLock<Provenance> = LazyLock::new(|| {
+    let Origin { command, versions } = Origin::default();
+    Provenance {
+        machine: String::new(),
+        versions,
+        date: String::new(),
+        command,
+    }
+});
 
 impl Control<'static> {
     /// Nobody stops the work, hears of it, or wants files.
@@ -136,7 +156,8 @@ impl Control<'static> {
             stop: &|| false,
             progress: &|_| (),
             wants_files: false,
-            origin: &UNNAMED,
+            provenance: &UNNAMED,
+            threads: None,
         }
     }
 }
@@ -146,6 +167,8 @@ impl Control<'static> {
 pub enum Progress {
     /// Work on a text of so many bytes, in words.
     Stage(&'static str, usize),
+    /// What is counted, how much of it is done, and all of it.
+    Count(&'static str, usize, usize),
 }
 
 /// A question whose type is known when it is asked.

@@ -5,6 +5,7 @@ pub mod diff;
 pub mod equilibrium;
 pub mod linearise;
 pub mod plan;
+pub mod tolerance;
 
 use report::read_json;
 use scene::nearest;
@@ -15,6 +16,7 @@ pub use diff::Diff;
 pub use equilibrium::Equilibrium;
 pub use linearise::Linearise;
 pub use plan::Plan;
+pub use tolerance::Tolerance;
 
 use crate::question::{AnyQuestion, Output, Question, Subject};
 use crate::refusal::Refusal;
@@ -69,7 +71,7 @@ macro_rules! questions {
     };
 }
 
-questions!(Plan, Check, Equilibrium, Linearise, Diff);
+questions!(Plan, Check, Equilibrium, Linearise, Tolerance, Diff);
 
 impl Questions {
     /// The question of this name, with its options as a JSON object.

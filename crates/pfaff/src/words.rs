@@ -14,6 +14,8 @@ pub enum Block {
         /// The sentence.
         text: String,
     },
+    /// An empty line: what follows is about something else.
+    Gap,
     /// Lines of cells, the first one of them with the names of the columns.
     Table(Vec<Vec<String>>),
 }
@@ -54,7 +56,7 @@ pub fn text(blocks: &[Block]) -> String {
     let mut before: Option<&Block> = None;
     for block in blocks {
         let is_apart = match (before, block) {
-            (None | Some(Block::Heading(_)), _) => false,
+            (None | Some(Block::Heading(_) | Block::Gap), _) | (_, Block::Gap) => false,
             (_, Block::Heading(_) | Block::Table(_)) | (Some(Block::Table(_)), _) => true,
             (Some(Block::Sentence { .. }), Block::Sentence { .. }) => false,
         };
@@ -62,6 +64,7 @@ pub fn text(blocks: &[Block]) -> String {
             out.push('\n');
         }
         match block {
+            Block::Gap => out.push('\n'),
             Block::Heading(words) => out.push_str(&wrapped("", words)),
             Block::Sentence { lead, text } => out.push_str(&wrapped(lead, text)),
             Block::Table(lines) => out.push_str(&columns(lines)),

@@ -8,7 +8,6 @@
 //! | [`documents`] | `analyze --json`, `plan --json` and `summary.json` |
 //! | [`figures`] | the mechanism with its verdicts, histories, paths in the plane: SVG, PNG |
 //! | [`mod@work_precision`] | error against run time: table, figure, page |
-//! | [`mod@tolerance`] | data within their tolerances: page |
 //! | [`mod@sweep`] | many runs: shards and journals that survive interruptions, CSV and Parquet |
 //! | [`html`] | the page of a run, with its animation |
 //! | [`page`] | common parts of pages: head, end, style, format of numbers |
@@ -24,7 +23,6 @@ pub mod peaks;
 mod recording;
 pub mod sweep;
 pub mod tables;
-pub mod tolerance;
 pub mod work_precision;
 
 pub use documents::{
@@ -41,10 +39,8 @@ pub use recording::{Frame, Recording};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
 pub use tables::{
     Column, Quantity, ReactionColumn, ReactionTable, Selection, Table, TableError, Trajectory,
-    TrajectoryTable, columns_of_reactions, reaction_columns, tolerance_table, write_chosen,
-    write_determined,
+    TrajectoryTable, columns_of_reactions, reaction_columns, write_chosen, write_determined,
 };
-pub use tolerance::tolerance_page;
 pub use work_precision::{
     CurveName, Place, Provenance, RankingLine, ReferenceDocument, WorkPrecisionDocument,
     WorkPrecisionRow, WorkPrecisionScene, WorkPrecisionTable, work_precision_page,

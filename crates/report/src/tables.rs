@@ -6,7 +6,6 @@
 mod reactions;
 #[cfg(test)]
 mod tests;
-mod tolerance;
 mod trajectory;
 
 use model::codes::Code;
@@ -18,7 +17,6 @@ pub use reactions::{
     Quantity, ReactionColumn, ReactionTable, Selection, columns_of_reactions, reaction_columns,
     write_chosen, write_determined,
 };
-pub use tolerance::tolerance_table;
 pub use trajectory::{Column, Trajectory, TrajectoryTable};
 
 /// Reason why a table or a row cannot be written.

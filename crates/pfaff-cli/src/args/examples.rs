@@ -20,15 +20,6 @@ pub(super) const SWEEP: &str = "Examples:
 The same command again goes on where the last one was interrupted. Several --vary are a full grid; the last one runs fastest. Things go by their names or by
 [0], [1], ...; a key that the scene leaves out is added to it. Exit code 1 if a run is not done; it has a row all the same.";
 
-pub(super) const TOLERANCE: &str = "Examples:
-  pfaff tolerance linkage.toml --tolerance 1e-4                 every point somewhere within 0.1 mm, a thousand times
-  pfaff tolerance linkage.toml --out tolerance                  a table, a document, and a page with histograms
-  pfaff tolerance linkage.toml --vary body.crank.mass=±2% --vary k=±10%
-  pfaff tolerance linkage.toml --runs 10000 --seed 7 --json
-
-Points are uniform in the ball of their tolerance, directions turn, and numbers vary in their interval; masses and forces stay as they are but for --vary. What has a tolerance is
-what the scene states one for, or all with --tolerance. The same seed gives the same samples.";
-
 pub(super) const WORK_PRECISION: &str = "Examples:
   pfaff work-precision mine.toml --out wp            two methods that agree are the reference
   pfaff work-precision mine.toml --out wp --quick    three tolerances, for a first look

@@ -84,7 +84,7 @@ impl Question for Linearise {
         let mut answer = LineariseAnswer::new(study.scene.name(), &found, modes.as_deref());
         if control.wants_files {
             let modes = modes.as_deref().unwrap_or_default();
-            answer.pages = page::all(&study, &found, modes, control.origin);
+            answer.pages = page::all(&study, &found, modes, &control.provenance.into());
         }
         Ok(answer)
     }

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use model::{Mechanism, Registry, System, Tolerance};
 use scene::{Shift, Template, WithUnit};
+use serde::Deserialize;
 
 use super::draw::Stream;
 use super::error::ToleranceError;
@@ -29,7 +30,8 @@ const UNREADABLE: &str = "the scene with varied numbers cannot be assembled";
 /// assert!("L=0.5".parse::<Variation>().is_err() && "L=±-1".parse::<Variation>().is_err());
 /// # Ok::<(), String>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "String")]
 pub struct Variation {
     key: String,
     /// What is written after the sign.
@@ -63,6 +65,14 @@ impl Variation {
 impl fmt::Display for Variation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}=±{}", self.key, self.text)
+    }
+}
+
+impl TryFrom<String> for Variation {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
     }
 }
 

@@ -6,6 +6,7 @@ use solvability::Stretches;
 use super::comparison::Comparison;
 use crate::documents::{AnalysisDocument, FreedomsDocument, MakeUniqueDocument, RunDocument};
 use crate::recording::Recording;
+use crate::work_precision::Provenance;
 
 /// The contents of a page.
 pub struct RunPage<'a> {
@@ -131,6 +132,15 @@ pub struct Origin {
     pub command: String,
     /// Versions of program and compiler.
     pub versions: String,
+}
+
+impl From<&Provenance> for Origin {
+    fn from(p: &Provenance) -> Self {
+        Self {
+            command: p.command.clone(),
+            versions: p.versions.clone(),
+        }
+    }
 }
 
 impl Default for Origin {

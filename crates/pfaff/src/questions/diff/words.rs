@@ -32,9 +32,10 @@ pub(super) fn of(d: &DiffAnswer) -> Vec<Block> {
     }
     match (&d.motion, &d.motion_not_compared) {
         (Some(motion), _) => blocks.extend(moved(motion)),
-        (None, Some(why)) => {
-            blocks.push(Block::Heading(format!("motions not compared: {why}")));
-        }
+        (None, Some(why)) => blocks.extend([
+            Block::Gap,
+            Block::sentence(format!("motions not compared: {why}")),
+        ]),
         (None, None) => {}
     }
     blocks
@@ -102,7 +103,7 @@ fn words(r: &DiffReaction, with_type: bool) -> String {
 fn moved(motion: &DiffMotion) -> Vec<Block> {
     if motion.bodies.is_empty() {
         let none = "no body has the same name in both scenes: no motion to compare";
-        return vec![Block::Heading(none.to_owned())];
+        return vec![Block::Gap, Block::sentence(none)];
     }
     let mut bodies: Vec<_> = motion.bodies.iter().collect();
     bodies.sort_by(|a, b| b.distance.total_cmp(&a.distance));

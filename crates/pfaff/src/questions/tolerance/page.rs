@@ -1,12 +1,13 @@
 //! `tolerance.html`: how far verdicts, reactions and places hold while data vary within their
 //! tolerances. One file that opens offline, without scripts.
 
-use crate::documents::{
+use report::documents::{
     MarkerRangeDocument, RangeDocument, ReactionRangeDocument, ToleranceDocument,
 };
-use crate::figures;
-use crate::page::{add, close, list, open, safe};
-use crate::work_precision::Provenance;
+use report::page::{add, close, list, open, safe};
+use report::{Provenance, figures};
+
+use super::words::digits;
 
 /// Reactions and markers that are drawn; the tables have all.
 const DRAWN: usize = 24;
@@ -20,8 +21,7 @@ are those of rigid parts without play, if all samples determine them. They show 
 is as stiff. Histograms show the middle of the samples; the table has the extremes.</p>\n";
 
 /// The page of samples; `clouds` are the places of markers (m), the described one first.
-#[must_use]
-pub fn tolerance_page(
+pub(super) fn of(
     d: &ToleranceDocument,
     clouds: &[(String, Vec<[f64; 3]>)],
     provenance: &Provenance,
@@ -30,8 +30,8 @@ pub fn tolerance_page(
     let mut sentences = d.sentences();
     let has_range =
         |r: &&ReactionRangeDocument| r.values.first().is_some_and(|v| v.range.is_some());
-    let told = d.reactions.iter().filter(has_range);
-    sentences.extend(told.take(3).map(|r| r.sentence.clone()));
+    let ranged = d.reactions.iter().filter(has_range);
+    sentences.extend(ranged.take(3).map(|r| r.sentence.clone()));
     list(&mut page, &sentences);
     page.push_str(EXPLANATION);
     reactions(&mut page, d);
@@ -225,10 +225,4 @@ fn marker_rows(page: &mut String, name: &str, marker: &MarkerRangeDocument) {
             format_args!("<td>{mean}</td><td>{farthest}</td></tr>\n"),
         );
     }
-}
-
-/// A number with four significant digits.
-fn digits(x: f64) -> String {
-    let short: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    model::words::rounded(short + 0.0)
 }

@@ -1,0 +1,155 @@
+//! How far do verdicts, reactions and places hold while data vary within their tolerances?
+
+mod page;
+mod words;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use report::documents::ToleranceDocument;
+use report::{Family, Table};
+use serde::{Deserialize, Serialize};
+
+use crate::question::{Answer, Control, Ending, Output, Place, Progress, Question};
+use crate::refusal::{Refusal, json};
+use crate::start::Start;
+use crate::tolerance::{
+    SAMPLES, ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, Variation, Varied,
+};
+use crate::words::Block;
+
+/// Data within their tolerances: how far verdicts, reactions and places hold
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "command", derive(clap::Args))]
+#[cfg_attr(feature = "command", command(after_help = include_str!("tolerance/examples.txt")))]
+pub struct Tolerance {
+    /// Number of samples
+    #[cfg_attr(feature = "command", arg(long, value_name = "N", default_value_t = SAMPLES))]
+    pub runs: usize,
+    /// A parameter or number of the scene that varies besides, and by how much: KEY=±VALUE or
+    /// KEY=±P%; may be given several times
+    #[cfg_attr(feature = "command", arg(long, value_name = "KEY=±VALUE"))]
+    pub vary: Vec<Variation>,
+    /// Another seed gives other samples
+    #[cfg_attr(feature = "command", arg(long, value_name = "S", default_value_t = 1))]
+    pub seed: u64,
+    /// Time of the motion at which the samples are analysed (s)
+    #[cfg_attr(
+        feature = "command",
+        arg(
+            long,
+            value_name = "T",
+            default_value_t = 0.0,
+            allow_hyphen_values = true
+        )
+    )]
+    pub at_time: f64,
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        let ToleranceOptions { samples, seed, .. } = ToleranceOptions::default();
+        Self {
+            runs: samples,
+            vary: Vec::new(),
+            seed,
+            at_time: 0.0,
+        }
+    }
+}
+
+const TABLE: &str = "tolerance.csv";
+const DOCUMENT: &str = "tolerance.json";
+const PAGE: &str = "tolerance.html";
+
+impl Question for Tolerance {
+    const NAME: &'static str = "tolerance";
+    const OUTPUT: Option<Output> = Some(Output {
+        family: Family(&[TABLE, DOCUMENT, PAGE]),
+        contents: "the samples as a table, the document, and a page",
+    });
+    type Subject<'s> = &'s Start<'s>;
+    type Answer = ToleranceAnswer;
+
+    fn answer(&self, of: &Start<'_>, control: &Control<'_>) -> Result<ToleranceAnswer, Refusal> {
+        let refused = |e: ToleranceError| match e {
+            ToleranceError::Study(e) => of.refusal(e),
+            e if e.is_input() => Refusal::input(e.to_string()).coded(e.code()),
+            e => Refusal::stopped(e.to_string()).coded(e.code()),
+        };
+        let assembled = of.assembled(control)?;
+        let vary = (!self.vary.is_empty()).then(|| {
+            let text = (of.name.as_str(), of.text.as_str());
+            Varied::new(text, of.registry, of.tolerance, self.vary.clone())
+        });
+        let vary = vary.transpose().map_err(refused)?;
+        let study = ToleranceStudy::varying(assembled, self.at_time, vary).map_err(refused)?;
+        let memory = study.memory(self.runs);
+        of.budget.allow(memory, "keeping these samples")?;
+        let options = ToleranceOptions {
+            samples: self.runs,
+            seed: self.seed,
+            threads: control.threads,
+        };
+        let made = AtomicUsize::new(0);
+        let found = study.run(&options, control.stop, |_| {
+            let done = made.fetch_add(1, Ordering::Relaxed) + 1;
+            let of = self.runs;
+            (control.progress)(Progress::Count("samples", done, of));
+        });
+        let ToleranceResult { samples, document } = found.map_err(refused)?;
+        let mut files = Vec::new();
+        if control.wants_files {
+            let mut table = Table::new(TABLE, Vec::new(), &study.columns())?;
+            for sample in &samples {
+                table.record(&study.row(sample))?;
+            }
+            let page = page::of(&document, &study.clouds(&samples), control.provenance);
+            files = vec![
+                (TABLE, table.finish()?),
+                (DOCUMENT, json(&document)?.into_bytes()),
+                (PAGE, page.into_bytes()),
+            ];
+        }
+        Ok(ToleranceAnswer {
+            document,
+            wanted: self.runs,
+            files,
+        })
+    }
+}
+
+/// What samples say together.
+#[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
+pub struct ToleranceAnswer {
+    /// Verdicts, ranges and places.
+    #[serde(flatten)]
+    pub document: ToleranceDocument,
+    /// Number of samples that were asked for.
+    #[serde(skip)]
+    wanted: usize,
+    #[serde(skip)]
+    files: Vec<(&'static str, Vec<u8>)>,
+}
+
+impl Answer for ToleranceAnswer {
+    fn words(&self) -> Vec<Block> {
+        words::of(&self.document)
+    }
+
+    fn ending(&self) -> Ending {
+        if !self.document.partial {
+            return Ending::Complete;
+        }
+        let (made, all) = (self.document.samples, self.wanted);
+        Ending::interrupted(format!("interrupted after {made} of {all} samples"))
+    }
+
+    fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {
+        for (name, content) in &self.files {
+            place.put(name, content)?;
+        }
+        Ok(())
+    }
+}
