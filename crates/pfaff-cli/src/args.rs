@@ -12,10 +12,9 @@ use clap_complete::Shell;
 use pfaff::RunOptions;
 use pfaff::command::named;
 use pfaff::import::Base;
-use pfaff::run_options::row;
 use pfaff::sweep::{Axis, Shard};
 
-pub(crate) use known::{Known, Settings, in_si};
+pub(crate) use known::{Known, Settings};
 use values::joint_value;
 
 use crate::ask::Asked;
@@ -38,9 +37,8 @@ pub(crate) struct Arguments {
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
-    /// Rank, redundancy, and the verdict of every reaction
-    #[command(after_help = examples::ANALYZE)]
-    Analyze(Analyze),
+    #[command(flatten)]
+    Ask(Asked),
     /// Motion and reactions, written into a directory with a report for any browser
     #[command(after_help = examples::SIMULATE)]
     Simulate(Simulate),
@@ -50,8 +48,6 @@ pub(crate) enum Command {
     /// Error versus run time, for every method and tolerance
     #[command(after_help = examples::WORK_PRECISION)]
     WorkPrecision(WorkPrecision),
-    #[command(flatten)]
-    Ask(Asked),
     /// Create a scene from a template; without a name, list the templates
     #[command(after_help = examples::NEW)]
     New(New),
@@ -80,8 +76,7 @@ impl Command {
     pub(crate) fn answer(&self) -> Answer {
         let json = match self {
             Self::Ask(asked) => return asked.answer(),
-            Self::Analyze(Analyze { json, .. })
-            | Self::Simulate(Simulate { json, .. })
+            Self::Simulate(Simulate { json, .. })
             | Self::Sweep(Sweep { json, .. })
             | Self::WorkPrecision(WorkPrecision { json, .. })
             | Self::New(New { json, .. })
@@ -92,60 +87,6 @@ impl Command {
         };
         if json { Answer::Json } else { Answer::Words }
     }
-}
-
-#[derive(Args)]
-pub(crate) struct Analyze {
-    /// Scene file, or - for standard input
-    pub(crate) scene: PathBuf,
-    /// Time of the motion at which the mechanism is analysed (s)
-    #[arg(
-        long,
-        value_name = "T",
-        default_value_t = 0.0,
-        allow_hyphen_values = true
-    )]
-    pub(crate) at_time: f64,
-    /// Rows to take as the dependent ones, counted from 1
-    #[arg(long, value_name = "ROWS", value_delimiter = ',', value_parser = row)]
-    pub(crate) drop: Option<Vec<usize>>,
-    /// A sum of components to judge, as "W3.N + W4.N"; may be given several times
-    #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
-    pub(crate) combine: Vec<String>,
-    /// Find the smallest sets of rows to delete so that this reaction becomes unique; may be given
-    /// several times
-    #[arg(long, value_name = "NAME")]
-    pub(crate) make_unique: Vec<String>,
-    /// What may be deleted for --make-unique: sensible (no joint of several rows loses all of
-    /// them), whole (joints and drives as a whole), rows (any), or rows:4,6,21 (these)
-    #[arg(long, value_name = "WHAT", default_value = "sensible")]
-    pub(crate) allow: String,
-    /// List at most N sets of rows that can be eliminated without a change of the motion
-    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "100")]
-    pub(crate) eliminations: Option<usize>,
-    /// Also judge the components in the frames of the first body, of the edge and of the joint
-    #[arg(long)]
-    pub(crate) frames: bool,
-    /// Also judge moments about this point: X,Y in the plane, X,Y,Z in space (m, ground axes), or
-    /// the name of a marker
-    #[arg(long, value_name = "POINT", allow_hyphen_values = true)]
-    pub(crate) about: Option<String>,
-    /// Run the motion, for the duration that the scene states or to T_END (s): the verdict that
-    /// holds along it, and the intervals with other verdicts
-    #[arg(long, value_name = "T_END", num_args = 0..=1, allow_negative_numbers = true)]
-    pub(crate) along: Option<Option<f64>>,
-    /// Compute the reactions for a choice: minimum-norm, minimum-norm:length=L (a torque counts as
-    /// a force on an arm of length L), compliance:W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds rad/(N·m)),
-    /// drop:6,21; may be given several times
-    #[arg(long, value_name = "CHOICE")]
-    pub(crate) choose: Vec<String>,
-    #[command(flatten)]
-    pub(crate) known: Known,
-    #[command(flatten)]
-    pub(crate) resources: Resources,
-    /// One JSON document on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
 }
 
 #[derive(Args)]

@@ -147,7 +147,7 @@ impl Asked {
         let (text, ending) = self.asked(console, &|| interrupt.is_asked())?;
         match ending {
             Ending::Complete => console.print(&text),
-            Ending::Partial { .. } => Err(console.incomplete(&text)),
+            Ending::Partial { .. } | Ending::Stopped => Err(console.incomplete(&text)),
         }
     }
 
@@ -182,6 +182,7 @@ impl Asked {
         let control = Control {
             stop,
             progress: &|progress| shown.show(progress),
+            wants_words: matches!(self.answer(), Answer::Words),
             wants_files: place.is_some(),
             provenance: &provenance(),
             threads: resources.threads,

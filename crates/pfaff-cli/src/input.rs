@@ -19,6 +19,7 @@ use crate::resources::Resources;
 pub use pfaff::source::LARGEST;
 
 /// The text of a scene, its name in messages, and the tolerances of the command line.
+#[derive(Clone)]
 pub(crate) struct Source<'r> {
     pub(crate) name: String,
     pub(crate) text: String,
@@ -133,16 +134,4 @@ pub fn unknown(what: &str, name: &str, known: &[&str]) -> Failure {
         "there is no {what} `{name}`; there are: {}{advice}",
         known.join(", ")
     ))
-}
-
-/// Rows counted from 0, from the user's rows counted from 1.
-pub(crate) fn rows_from_zero(rows: Option<&[usize]>) -> Result<Option<Vec<usize>>, Failure> {
-    let Some(rows) = rows else { return Ok(None) };
-    let from_zero: Option<Vec<usize>> = rows.iter().map(|r| r.checked_sub(1)).collect();
-    match from_zero {
-        Some(rows) => Ok(Some(rows)),
-        None => Err(Failure::input(
-            "rows are counted from 1; there is no row 0".to_owned(),
-        )),
-    }
 }

@@ -1,9 +1,7 @@
 #![doc = include_str!("../README.md")]
 
-mod analyze;
 mod args;
 mod ask;
-mod choice;
 pub mod console;
 mod explain;
 mod import;
@@ -144,7 +142,6 @@ impl CommandLine for Arguments {
     fn run(&self, console: &Console<'_>) -> Outcome {
         match &self.command {
             Command::Ask(a) => a.run(console),
-            Command::Analyze(a) => analyze::run(a, console),
             Command::Simulate(a) => simulate::run(a, console),
             Command::Sweep(a) => sweep::run(a, console),
             Command::WorkPrecision(a) => work_precision::run(a, console),

@@ -4,49 +4,81 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use pfaff::memory::Bytes;
 use pfaff::question;
 
 /// Texts of at least this size (bytes) take long to read.
 const LONG: usize = 1 << 20;
 
-/// The present line of a terminal; dropping it removes the line.
-#[derive(Default)]
-pub(crate) struct Progress(Mutex<Option<Line>>);
+/// Steps of the bar over a whole motion.
+const TICKS: f64 = 1000.0;
 
-/// A bar, and what it counts; a stage counts nothing.
+/// The present lines of a terminal; dropping it removes them.
+#[derive(Default)]
+pub(crate) struct Progress {
+    all: MultiProgress,
+    lines: Mutex<Vec<Line>>,
+}
+
+/// A bar, and what it shows.
 struct Line {
-    counts: Option<&'static str>,
+    what: &'static str,
     bar: ProgressBar,
 }
 
 impl Progress {
     pub(crate) fn show(&self, progress: question::Progress) {
-        let mut line = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
         match progress {
             question::Progress::Stage(what, bytes) => {
-                // The one before is removed first.
-                *line = None;
-                *line = (bytes >= LONG).then(|| Line::stage(what, bytes));
+                lines.clear();
+                if bytes >= LONG {
+                    lines.push(self.stage(what, bytes));
+                }
             }
             question::Progress::Count(what, done, of) => {
-                let is_counted = |line: &Line| line.counts == Some(what);
-                if !line.as_ref().is_some_and(is_counted) {
-                    *line = None;
-                    *line = Some(Line::count(what, of));
+                let style = "{bar:40} {pos}/{len} {msg}, {per_sec}, {eta} left";
+                let bar = self.bar(&mut lines, what, style, of as u64);
+                bar.set_message(what);
+                bar.set_position(done as u64);
+                if done == of {
+                    lines.retain(|line| line.what != what);
                 }
-                if let Some(line) = line.as_ref() {
-                    line.bar.set_position(done as u64);
+            }
+            question::Progress::Motion(what, t, t_end) => {
+                let style = "{bar:40} {msg}, {eta} left";
+                let bar = self.bar(&mut lines, what, style, TICKS as u64);
+                if !bar.is_hidden() {
+                    bar.set_position((t / t_end * TICKS) as u64);
+                    bar.set_message(format!("{what}: t = {t:.3} s"));
                 }
             }
         }
     }
-}
 
-impl Line {
-    fn stage(what: &str, bytes: usize) -> Self {
-        let bar = ProgressBar::new_spinner();
+    /// The bar that shows this, a new one if there is none.
+    fn bar<'l>(
+        &self,
+        lines: &'l mut Vec<Line>,
+        what: &'static str,
+        style: &str,
+        of: u64,
+    ) -> &'l ProgressBar {
+        let known = lines.iter().position(|line| line.what == what);
+        let place = known.unwrap_or_else(|| {
+            let bar = self.all.add(ProgressBar::new(of));
+            if let Ok(style) = ProgressStyle::with_template(style) {
+                bar.set_style(style);
+            }
+            lines.push(Line { what, bar });
+            lines.len() - 1
+        });
+        &lines[place].bar
+    }
+
+    fn stage(&self, what: &'static str, bytes: usize) -> Line {
+        let bar = self.all.add(ProgressBar::new_spinner());
         if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {
             bar.set_style(style);
         }
@@ -55,18 +87,7 @@ impl Line {
         if !bar.is_hidden() && thread::Builder::new().spawn(|| ()).is_ok() {
             bar.enable_steady_tick(Duration::from_millis(100));
         }
-        Self { counts: None, bar }
-    }
-
-    fn count(what: &'static str, of: usize) -> Self {
-        let bar = ProgressBar::new(of as u64);
-        let style = "{bar:40} {pos}/{len} {msg}, {per_sec}, {eta} left";
-        if let Ok(style) = ProgressStyle::with_template(style) {
-            bar.set_style(style);
-        }
-        bar.set_message(what);
-        let counts = Some(what);
-        Self { counts, bar }
+        Line { what, bar }
     }
 }
 

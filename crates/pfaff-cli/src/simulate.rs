@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use pfaff::choice::choices;
 use pfaff::model::System;
 use pfaff::model::words::{listed, rounded};
 use pfaff::report::documents::{
@@ -14,7 +15,6 @@ use pfaff::report::{Origin, OutputDirectory, Provenance, RunDocument};
 use pfaff::{RunOptions, StudyError};
 
 use crate::args::Simulate;
-use crate::choice::choices;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::{BY_REQUEST, Interrupt};
@@ -40,7 +40,8 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     let mut study = source.study(&run, arguments.resources, console)?;
     let rows = study.prepared.mechanism.layout().rows();
     let reaction = |name: &str| study.reaction(name);
-    study.choices = choices(&arguments.choose, &source, (rows, &reaction))?;
+    let start = source.clone().start(arguments.resources);
+    study.choices = choices(&arguments.choose, &start, (rows, &reaction))?;
     let memory = study
         .memory(source.text.len())
         .map_err(|e| source.failure(e))?;

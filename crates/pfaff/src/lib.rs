@@ -15,6 +15,7 @@
 //! | [`study`] | its consistent start, its motion, its files |
 //! | `report_builder`, `comparison` | its report, and several choices for reactions that are not unique |
 //! | [`run_options`] | options of a run that replace those of its scene |
+//! | [`choice`] | choices of reactions that are not unique, as users write them |
 //! | [`configuration`] | one configuration, and the results for its reactions |
 //! | [`along_motion`] | the verdicts along its motion |
 //! | [`mod@rows`] | what takes the rows of a run: one value for each file or array |
@@ -29,6 +30,7 @@
 
 pub mod along_motion;
 pub mod assembled;
+pub mod choice;
 #[cfg(feature = "command")]
 pub mod command;
 mod comparison;

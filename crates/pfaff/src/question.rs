@@ -93,6 +93,8 @@ pub enum Ending {
         /// The reason.
         error: String,
     },
+    /// It is a part, and says itself why.
+    Stopped,
 }
 
 impl Ending {
@@ -129,6 +131,8 @@ pub struct Control<'c> {
     pub stop: &'c (dyn Fn() -> bool + Sync),
     /// Hears what is done at present.
     pub progress: &'c (dyn Fn(Progress) + Sync),
+    /// Whether the answer is wanted in words.
+    pub wants_words: bool,
     /// Whether the files of the answer are wanted, too.
     pub wants_files: bool,
     /// Who asks, with what, when: named on pages.
@@ -155,6 +159,7 @@ impl Control<'static> {
         Self {
             stop: &|| false,
             progress: &|_| (),
+            wants_words: false,
             wants_files: false,
             provenance: &UNNAMED,
             threads: None,
@@ -169,6 +174,8 @@ pub enum Progress {
     Stage(&'static str, usize),
     /// What is counted, how much of it is done, and all of it.
     Count(&'static str, usize, usize),
+    /// What is done along a motion, the time that it has reached, and the last time (s).
+    Motion(&'static str, f64, f64),
 }
 
 /// A question whose type is known when it is asked.
@@ -239,7 +246,7 @@ impl<A: Answer> AnyAnswer for A {
             document: &'d D,
         }
         match Answer::ending(self) {
-            Ending::Complete => json(self),
+            Ending::Complete | Ending::Stopped => json(self),
             Ending::Partial { code, error } => json(&Partial {
                 code,
                 error: &error,

@@ -1,5 +1,6 @@
 //! All questions, each in a folder of its own: options, computation, answer, words.
 
+pub mod analyze;
 pub mod check;
 pub mod diff;
 pub mod equilibrium;
@@ -11,6 +12,7 @@ use report::read_json;
 use scene::nearest;
 use serde::Deserialize;
 
+pub use analyze::Analyze;
 pub use check::Check;
 pub use diff::Diff;
 pub use equilibrium::Equilibrium;
@@ -71,7 +73,15 @@ macro_rules! questions {
     };
 }
 
-questions!(Plan, Check, Equilibrium, Linearise, Tolerance, Diff);
+questions!(
+    Analyze,
+    Plan,
+    Check,
+    Equilibrium,
+    Linearise,
+    Tolerance,
+    Diff
+);
 
 impl Questions {
     /// The question of this name, with its options as a JSON object.

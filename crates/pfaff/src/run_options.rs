@@ -57,7 +57,7 @@ pub struct RunOptions {
     pub threads: Option<NonZeroUsize>,
 }
 
-const NO_ROW: &str = "rows are counted from 1; there is no row 0";
+pub(crate) const NO_ROW: &str = "rows are counted from 1; there is no row 0";
 
 /// Rows from 0, from those of a user, who counts from 1.
 pub(crate) fn rows<'d, D: Deserializer<'d>>(reader: D) -> Result<Option<Vec<usize>>, D::Error> {

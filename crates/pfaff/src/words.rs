@@ -14,6 +14,8 @@ pub enum Block {
         /// The sentence.
         text: String,
     },
+    /// Explains a table, directly below it: words, and what they stand for.
+    Legend(String, String),
     /// An empty line: what follows is about something else.
     Gap,
     /// Lines of cells, the first one of them with the names of the columns.
@@ -56,15 +58,17 @@ pub fn text(blocks: &[Block]) -> String {
     let mut before: Option<&Block> = None;
     for block in blocks {
         let is_apart = match (before, block) {
-            (None | Some(Block::Heading(_) | Block::Gap), _) | (_, Block::Gap) => false,
+            (None | Some(Block::Heading(_) | Block::Gap), _)
+            | (_, Block::Gap | Block::Legend(..)) => false,
             (_, Block::Heading(_) | Block::Table(_)) | (Some(Block::Table(_)), _) => true,
-            (Some(Block::Sentence { .. }), Block::Sentence { .. }) => false,
+            (_, Block::Sentence { .. }) => false,
         };
         if is_apart {
             out.push('\n');
         }
         match block {
             Block::Gap => out.push('\n'),
+            Block::Legend(words, text) => out.push_str(&wrapped(&format!("{words}: "), text)),
             Block::Heading(words) => out.push_str(&wrapped("", words)),
             Block::Sentence { lead, text } => out.push_str(&wrapped(lead, text)),
             Block::Table(lines) => out.push_str(&columns(lines)),
@@ -138,4 +142,43 @@ pub fn columns(rows: &[Vec<String>]) -> String {
         out.push('\n');
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_are_apart_where_something_else_begins() {
+        let table = || Block::table(["a", "bc"], [["1".to_owned(), "2".to_owned()]]);
+        let blocks = [
+            Block::sentence("one"),
+            Block::after("- ", "two"),
+            table(),
+            Block::Legend("a".to_owned(), "letter".to_owned()),
+            Block::sentence("three"),
+            Block::Heading("next:".to_owned()),
+            table(),
+            table(),
+            Block::Gap,
+            Block::sentence("end"),
+        ];
+        let expected = "one\n- two\n\na  bc\n1  2\na: letter\nthree\n\nnext:\na  bc\n1  2\n\na  bc\n1  2\n\nend\n";
+        assert_eq!(text(&blocks), expected);
+    }
+
+    #[test]
+    fn lines_of_a_sentence_begin_below_its_first_word() {
+        let long = "word ".repeat(40);
+        let lines = text(&[Block::after("note: ", long)]);
+        let widths: Vec<usize> = lines.lines().map(|line| line.chars().count()).collect();
+        assert_eq!(widths.len(), 3);
+        assert!(widths.iter().all(|width| *width <= 100), "{widths:?}");
+        assert!(
+            lines
+                .lines()
+                .skip(1)
+                .all(|line| line.starts_with("      word"))
+        );
+    }
 }

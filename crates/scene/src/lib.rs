@@ -82,4 +82,4 @@ pub use schema::schema;
 pub use source_map::{Entry, SourceMap};
 pub use template::{KeyError, Shift, Template, at_rest};
 pub use text::SourceText;
-pub use units::WithUnit;
+pub use units::{WithUnit, in_si};

@@ -106,6 +106,28 @@ pub(crate) fn is_number(text: &str) -> bool {
     text.ends_with(digits) && text.contains(digits) && text.replace('_', "").parse::<f64>().is_ok()
 }
 
+/// A finite number in SI, or one with a unit that is like this one.
+///
+/// ```
+/// use pfaff_scene::in_si;
+///
+/// assert_eq!((in_si("0.2", "1 m"), in_si("200 mm", "1 m")), (Some(0.2), Some(0.2)));
+/// assert_eq!((in_si("2 kg", "1 m"), in_si("inf", "1 m")), (None, None));
+/// ```
+#[must_use]
+pub fn in_si(text: &str, like: &str) -> Option<f64> {
+    let text = text.trim();
+    let number = match text.parse() {
+        Ok(number) => number,
+        Err(_) => {
+            let with_unit = WithUnit::read(text)?;
+            let is_like = WithUnit::read(like).is_some_and(|unit| unit.is_like(&with_unit));
+            with_unit.in_si(is_like.then_some(with_unit.number)?)
+        }
+    };
+    Some(number).filter(|x: &f64| x.is_finite())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

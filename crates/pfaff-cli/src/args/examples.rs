@@ -1,16 +1,5 @@
 //! Examples at the end of `--help`.
 
-pub(super) const ANALYZE: &str = "Examples:
-  pfaff analyze robot.toml --at-time 1.5           verdicts at 1.5 s of the motion
-  pfaff analyze robot.toml --make-unique W3        what to delete so that W3 is determined
-  pfaff analyze robot.toml --combine \"W3.N + W4.N\"
-  pfaff analyze robot.toml --along                 one verdict for the whole motion, and where another holds
-  pfaff analyze robot.toml --choose minimum-norm --choose compliance:B=1e-6,W3=1e-6,W4=2e-6 --choose drop:6,21
-  pfaff analyze robot.toml --tolerance 1e-4        verdicts for points known to 0.1 mm
-  pfaff analyze robot.toml --json
-
-Reactions that are not unique are never given a number without the choice it depends on.";
-
 pub(super) const SWEEP: &str = "Examples:
   pfaff sweep robot.toml --vary body.platform.mass=10:40:31 --out masses
   pfaff sweep robot.toml --vary drive.steering.motion.steps[0].by=0.01,0.02 --vary simulate.rtol=1e-4:1e-10:7:log --out grid

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use clap::Args;
 use pfaff::model::Tolerance;
-use pfaff::scene::WithUnit;
+use pfaff::scene::in_si;
 
 /// Other numbers in a scene.
 #[derive(Args, Clone, Default)]
@@ -78,20 +78,6 @@ fn angle(text: &str) -> Result<f64, String> {
 fn positive(text: &str, unit: &str, expected: &str) -> Result<f64, String> {
     let positive = in_si(text, unit).filter(|x| *x > 0.0);
     positive.ok_or_else(|| format!("need {expected}"))
-}
-
-/// A finite number in SI, or one with a unit that is like this one.
-pub(crate) fn in_si(text: &str, like: &str) -> Option<f64> {
-    let text = text.trim();
-    let number = match text.parse() {
-        Ok(number) => number,
-        Err(_) => {
-            let with_unit = WithUnit::read(text)?;
-            let is_like = WithUnit::read(like).is_some_and(|unit| unit.is_like(&with_unit));
-            with_unit.in_si(is_like.then_some(with_unit.number)?)
-        }
-    };
-    Some(number).filter(|x: &f64| x.is_finite())
 }
 
 #[cfg(test)]

@@ -102,7 +102,7 @@ impl Question for Tolerance {
         if control.wants_files {
             let mut table = Table::new(TABLE, Vec::new(), &study.columns())?;
             for sample in &samples {
-                table.record(&study.row(sample))?;
+                table.record(study.row(sample))?;
             }
             let page = page::of(&document, &study.clouds(&samples), control.provenance);
             files = vec![

@@ -1,19 +1,21 @@
 //! The tolerances of the data and their consequences, in sentences.
 
-use pfaff::model::words::length;
-use pfaff::report::AnalysisDocument;
+use model::words::length;
+use report::AnalysisDocument;
 
-use crate::output::wrapped;
+use crate::words::Block;
 
-/// Returns an empty text if no tolerance is stated and no lower rank is near.
-pub(super) fn describe(d: &AnalysisDocument) -> String {
+/// Nothing if no tolerance is stated and no lower rank is near.
+pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
     let data = &d.data;
     let sentences = [
         stated(data.tolerance, data.angle_tolerance),
         data.nearness(),
     ];
-    let told = sentences.into_iter().flatten();
-    told.map(|sentence| wrapped("  ", &sentence)).collect()
+    let sentences = sentences.into_iter().flatten();
+    sentences
+        .map(|sentence| Block::after("  ", sentence))
+        .collect()
 }
 
 /// The tolerances that the scene or the command line states.

@@ -1,33 +1,29 @@
 //! The rank and the facts that it is based on, in sentences.
 
-use pfaff::report::AnalysisDocument;
-use pfaff::report::documents::PartsDocument;
-use pfaff::solvability::ONE_PART;
+use report::AnalysisDocument;
+use report::documents::{PartsDocument, ReactionDocument};
+use solvability::ONE_PART;
 
-use crate::output::{count, wrapped};
+use crate::words::{Block, count};
 
 /// A row of a near dependence is named if its weight exceeds this fraction of the largest weight.
 const NAMED: f64 = 0.1;
 
 /// Rank, proof, and whether the rank is the same at other configurations.
-pub(super) fn describe(d: &AnalysisDocument) -> String {
-    let mut out = ranks(d);
-    out.push_str(&wrapped(
-        "  ",
-        &match d.ranks.parts {
-            Some(parts) => of_parts(d, parts),
-            None => proof(d),
-        },
-    ));
-    if let Some(sentence) = nearly(d) {
-        out.push_str(&wrapped("  ", &sentence));
-    }
-    out.push_str(&wrapped("  ", &elsewhere(d)));
-    out.push_str(&motions(d));
-    if let Some(continuation) = &d.answers.continuation {
-        out.push_str(&wrapped("  ", &continuation.text));
-    }
-    out
+pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
+    let mut blocks = ranks(d);
+    let mut say = |text: String| blocks.push(Block::after("  ", text));
+    say(match d.ranks.parts {
+        Some(parts) => of_parts(d, parts),
+        None => proof(d),
+    });
+    nearly(d).into_iter().for_each(&mut say);
+    say(elsewhere(d));
+    let motions = d.ranks.freedoms.sentences().into_iter();
+    blocks.extend(motions.map(|(lead, text)| Block::after(format!("  {lead}: "), text)));
+    let continuation = d.answers.continuation.iter();
+    blocks.extend(continuation.map(|c| Block::after("  ", &c.text)));
+    blocks
 }
 
 /// The proof of a mechanism whose parts were analysed separately.
@@ -48,32 +44,24 @@ fn of_parts(d: &AnalysisDocument, parts: PartsDocument) -> String {
 }
 
 /// The ranks with the drives, and without them if these differ.
-fn ranks(d: &AnalysisDocument) -> String {
-    let mut out = format!(
-        "rank {} (Φq alone {}, Ψ alone {}), redundancy {}, {}\n",
-        d.ranks.rank,
-        d.ranks.rank_holonomic,
-        d.ranks.rank_nonholonomic,
-        d.ranks.redundancy,
-        d.ranks.freedoms.sentence(d.ranks.mobility),
-    );
-    let without = d.ranks.freedoms.without_drives.as_ref();
-    if let Some(without) = without.filter(|without| without.redundancy != d.ranks.redundancy) {
-        out.push_str(&format!(
-            "  without {} rank {} and redundancy {}\n",
-            without.possessive(),
-            without.rank,
-            without.redundancy
-        ));
+fn ranks(d: &AnalysisDocument) -> Vec<Block> {
+    let ranks = &d.ranks;
+    let mut out = vec![Block::sentence(format!(
+        "rank {} (Φq alone {}, Ψ alone {}), redundancy {}, {}",
+        ranks.rank,
+        ranks.rank_holonomic,
+        ranks.rank_nonholonomic,
+        ranks.redundancy,
+        ranks.freedoms.sentence(ranks.mobility),
+    ))];
+    let without = ranks.freedoms.without_drives.as_ref();
+    if let Some(without) = without.filter(|without| without.redundancy != ranks.redundancy) {
+        let (rank, redundancy) = (without.rank, without.redundancy);
+        let whose = without.possessive();
+        let text = format!("without {whose} rank {rank} and redundancy {redundancy}");
+        out.push(Block::after("  ", text));
     }
     out
-}
-
-/// The possible motions, in words.
-fn motions(d: &AnalysisDocument) -> String {
-    let told = d.ranks.freedoms.sentences().into_iter();
-    told.map(|(lead, text)| wrapped(&format!("  {lead}: "), &text))
-        .collect()
 }
 
 fn proof(d: &AnalysisDocument) -> String {
@@ -140,7 +128,7 @@ fn nearly(d: &AnalysisDocument) -> Option<String> {
         .direction
         .iter()
         .fold(0.0, |a: f64, x| a.max(x.abs()));
-    let concerned = |r: &&pfaff::report::documents::ReactionDocument| {
+    let concerned = |r: &&ReactionDocument| {
         let mut rows = r.rows.iter();
         rows.any(|row| nearly.direction[row - 1].abs() > NAMED * largest)
     };

@@ -1,16 +1,10 @@
-//! Verdicts along the motion: the run with its progress bar on a terminal, and the answer in words.
+//! Verdicts along the motion in words.
 
-use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
-use pfaff::model::words::rounded;
-use pfaff::report::documents::{AlongDocument, AlongReactionDocument, SpecialDocument};
-use pfaff::{Progress, Study, StudyError, VerdictsAlongMotion};
+use model::words::rounded;
+use report::documents::{AlongDocument, AlongReactionDocument, SpecialDocument};
 
-use super::text::spoken;
-use crate::input::Source;
-use crate::output::{Failure, count, wrapped};
-
-/// Steps of the progress bar over the whole motion.
-const TICKS: u64 = 1000;
+use super::words::spoken;
+use crate::words::{Block, count};
 
 /// Judged states farther apart than this may miss a change: a fraction of the mechanism's size, or
 /// radians.
@@ -19,54 +13,19 @@ const COARSE: f64 = 0.2;
 /// Number of instants that are listed.
 const INSTANTS: usize = 12;
 
-/// Runs and judges the motion.
-pub(super) fn judge(
-    source: &Source,
-    study: &Study,
-    t_end: Option<f64>,
-    bars: &MultiProgress,
-) -> Result<VerdictsAlongMotion, Failure> {
-    let own = study.options.as_ref().map(|options| options.t_end);
-    let Some(end) = t_end.or(own) else {
-        return Err(source.failure(StudyError::NoEnd));
-    };
-    if !(end.is_finite() && end > 0.0) {
-        return Err(Failure::input(format!(
-            "--along goes to {end}, need a time > 0"
-        )));
-    }
-    // It hides itself if standard error is not a terminal.
-    let bar = bars.add(ProgressBar::new(TICKS));
-    if let Ok(style) = ProgressStyle::with_template("{msg} {bar:40}") {
-        bar.set_style(style);
-    }
-    let mut doing = "";
-    let along_motion = study.verdicts_along_motion(t_end, |progress| {
-        let (what, t) = match progress {
-            Progress::Moving(t) => ("moving ", t),
-            Progress::Judging(t) => ("judging", t),
-        };
-        if what != doing {
-            bar.set_message(what);
-            doing = what;
-        }
-        bar.set_position((t / end * TICKS as f64) as u64);
-    });
-    bar.finish_and_clear();
-    along_motion.map_err(|e| source.failure(e))
-}
-
 /// The verdicts over the motion, instants and intervals with others, and singular configurations.
-pub(super) fn describe(along: &AlongDocument) -> String {
-    let mut out = format!(
-        "\nAlong the motion, t = 0 to {} s ({}):\n",
+pub(super) fn of(along: &AlongDocument) -> Vec<Block> {
+    let (to, judged) = (
         seconds(along.to),
         count(along.samples, "state judged", "states judged"),
     );
-    out.push_str(&wrapped("- ", &over_the_motion(along)));
+    let heading = format!("Along the motion, t = 0 to {to} s ({judged}):");
+    let mut out = vec![Block::Heading(heading)];
+    let mut say = |text: String| out.push(Block::after("- ", text));
+    say(over_the_motion(along));
     for (name, reaction) in &along.reactions.0 {
         if reaction.of_run.verdict != "unique" {
-            out.push_str(&wrapped("- ", &components(name, reaction)));
+            say(components(name, reaction));
         }
     }
     let special = special(along);
@@ -76,33 +35,29 @@ pub(super) fn describe(along: &AlongDocument) -> String {
         .chain(passages)
         .chain(special.iter().take(INSTANTS))
         .collect();
-    for text in &all {
-        out.push_str(&wrapped("- ", text));
-    }
+    all.iter().for_each(|text| say((*text).clone()));
     let is_constant = |(_, r): &(String, AlongReactionDocument)| r.of_run.determined.is_empty();
     if all.is_empty() && along.reactions.0.iter().all(is_constant) {
-        out.push_str("- nothing else holds at any time\n");
+        say("nothing else holds at any time".to_owned());
     }
     if special.len() > INSTANTS {
         let more = count(special.len() - INSTANTS, "instant more", "instants more");
-        out.push_str(&format!("- and {more} (`--json` has all)\n"));
+        say(format!("and {more} (`--json` has all)"));
     }
     if along.reach > COARSE {
-        let between = format!(
+        say(format!(
             "warning: between judged states bodies move by up to {:.1} of the mechanism's size or radians: short events may be missed",
             along.reach
-        );
-        out.push_str(&wrapped("- ", &between));
+        ));
     }
     if let Some(reason) = &along.stopped {
-        let judged = match along.continued_to {
+        say(match along.continued_to {
             Some(to) => format!(
                 "the motion stopped there; continued as smoothly as it came, it was judged up to t = {} s: {reason}",
                 seconds(to)
             ),
             None => format!("the motion stopped, and was judged only so far: {reason}"),
-        };
-        out.push_str(&wrapped("- ", &judged));
+        });
     }
     out
 }

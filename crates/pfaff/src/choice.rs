@@ -2,40 +2,43 @@
 
 use std::collections::HashSet;
 
-use pfaff::StudyError;
-use pfaff::model::ConstraintId;
-use pfaff::solvability::{Allowed, Choice, Compliance, NormWeights};
+use model::ConstraintId;
+use solvability::{Allowed, Choice, Compliance, NormWeights};
 
-use crate::input::{Source, rows_from_zero};
-use crate::output::Failure;
+use crate::error::StudyError;
+use crate::refusal::Refusal;
+use crate::run_options::NO_ROW;
+use crate::start::Start;
 
 /// Rows that `--allow` permits to be deleted, in a mechanism with this number of rows.
-pub(crate) fn allowed(text: &str, rows: usize) -> Result<Allowed, Failure> {
+///
+/// # Errors
+/// What is expected instead.
+pub fn allowed(text: &str, rows: usize) -> Result<Allowed, Refusal> {
     match (text, text.strip_prefix("rows:")) {
         ("sensible", _) => Ok(Allowed::Sensible),
         ("whole", _) => Ok(Allowed::Whole),
         ("rows", _) => Ok(Allowed::Rows((0..rows).collect())),
         (_, Some(list)) => Ok(Allowed::Rows(row_list("--allow", list, rows)?)),
-        _ => Err(Failure::input(format!(
+        _ => Err(Refusal::input(format!(
             "--allow is `{text}`, need `sensible`, `whole`, `rows`, or a list as `rows:4,6,21`"
         ))),
     }
 }
 
 /// What choices refer to: the number of rows of a mechanism, and its joints and drives by name.
-pub(crate) type Named<'a> = (usize, &'a dyn Fn(&str) -> Result<ConstraintId, StudyError>);
+pub type Named<'a> = (usize, &'a dyn Fn(&str) -> Result<ConstraintId, StudyError>);
 
 /// The choices of `--choose`.
-pub(crate) fn choices(
-    texts: &[String],
-    source: &Source,
-    named: Named<'_>,
-) -> Result<Vec<Choice>, Failure> {
-    let each = texts.iter().map(|text| choice(text, source, named));
+///
+/// # Errors
+/// What is expected instead, or a name that is none.
+pub fn choices(texts: &[String], of: &Start<'_>, named: Named<'_>) -> Result<Vec<Choice>, Refusal> {
+    let each = texts.iter().map(|text| choice(text, of, named));
     each.collect()
 }
 
-fn choice(text: &str, source: &Source, (rows, reaction): Named<'_>) -> Result<Choice, Failure> {
+fn choice(text: &str, of: &Start<'_>, (rows, reaction): Named<'_>) -> Result<Choice, Refusal> {
     let (kind, rest) = match text.split_once(':') {
         Some((kind, rest)) => (kind, Some(rest)),
         None => (text, None),
@@ -57,7 +60,7 @@ fn choice(text: &str, source: &Source, (rows, reaction): Named<'_>) -> Result<Ch
         ("compliance", Some(rest)) => {
             let joints = rest
                 .split(',')
-                .map(|term| compliance(text, term, source, reaction));
+                .map(|term| compliance(text, term, of, reaction));
             Ok(Choice::Compliance(joints.collect::<Result<_, _>>()?))
         }
         ("drop", Some(rest)) => Ok(Choice::Elimination(row_list("--choose drop", rest, rows)?)),
@@ -73,26 +76,26 @@ fn choice(text: &str, source: &Source, (rows, reaction): Named<'_>) -> Result<Ch
     }
 }
 
-fn wrong(text: &str, expected: &str) -> Failure {
-    Failure::input(format!("--choose is `{text}`, need {expected}"))
+fn wrong(text: &str, expected: &str) -> Refusal {
+    Refusal::input(format!("--choose is `{text}`, need {expected}"))
 }
 
 /// Parses `W3=1e-6` (m/N in every direction), or `W3=1e-6/1e-3` with rad/(N·m).
 fn compliance(
     text: &str,
     term: &str,
-    source: &Source,
+    of: &Start<'_>,
     reaction: &dyn Fn(&str) -> Result<ConstraintId, StudyError>,
-) -> Result<Compliance, Failure> {
+) -> Result<Compliance, Refusal> {
     let expected =
         "NAME=COMPLIANCE in m/N, or NAME=COMPLIANCE/ROTATION with rad/(N·m), finite numbers ≥ 0";
     let (name, numbers) = term.rsplit_once('=').ok_or_else(|| wrong(text, expected))?;
-    let reaction = reaction(name.trim()).map_err(|e| source.failure(e))?;
+    let reaction = reaction(name.trim()).map_err(|e| of.refusal(e))?;
     let number = |word: &str| {
         let x = word.trim().parse::<f64>().ok();
         x.filter(|x| x.is_finite() && *x >= 0.0).ok_or_else(|| {
             let found = word.trim();
-            Failure::input(format!(
+            Refusal::input(format!(
                 "--choose compliance: that of `{}` is {found}, need {expected}",
                 name.trim()
             ))
@@ -110,23 +113,24 @@ fn compliance(
 }
 
 /// Parses a list of rows, counted from 1, into existing rows from 0, each at most once.
-fn row_list(option: &str, list: &str, rows: usize) -> Result<Vec<usize>, Failure> {
+fn row_list(option: &str, list: &str, rows: usize) -> Result<Vec<usize>, Refusal> {
     let numbers: Result<Vec<usize>, _> = list.split(',').map(|x| x.trim().parse()).collect();
     let Ok(numbers) = numbers else {
-        return Err(Failure::input(format!(
+        return Err(Refusal::input(format!(
             "{option}: `{list}` is no list of rows, as `6,21`"
         )));
     };
     if let Some(row) = numbers.iter().find(|row| **row > rows) {
-        return Err(Failure::input(format!(
+        return Err(Refusal::input(format!(
             "{option}: there is no row {row}; rows are 1 to {rows}"
         )));
     }
     let mut listed = HashSet::new();
     if let Some(row) = numbers.iter().find(|row| !listed.insert(**row)) {
-        return Err(Failure::input(format!(
+        return Err(Refusal::input(format!(
             "{option}: row {row} is listed twice"
         )));
     }
-    Ok(rows_from_zero(Some(&numbers))?.unwrap_or_default())
+    let from_zero = numbers.iter().map(|row| row.checked_sub(1)).collect();
+    Option::ok_or_else(from_zero, || Refusal::input(NO_ROW.to_owned()))
 }

@@ -1,14 +1,14 @@
 //! Reactions in numbers, for the requested choices.
 
-use pfaff::report::documents::{DistributionDocument, ValueDocument, ValuesDocument};
+use report::documents::{DistributionDocument, ValueDocument, ValuesDocument};
 
-use crate::output::{columns, wrapped};
+use crate::words::Block;
 
 /// Components that do not depend on a choice are listed once; those that do have one column for
 /// each choice.
-pub(super) fn describe(choices: &[DistributionDocument]) -> String {
+pub(super) fn of(choices: &[DistributionDocument]) -> Vec<Block> {
     let Some(first) = choices.first() else {
-        return String::new();
+        return Vec::new();
     };
     let mut header = ["reaction", "component", "determined"]
         .map(str::to_owned)
@@ -41,13 +41,12 @@ pub(super) fn describe(choices: &[DistributionDocument]) -> String {
             table.push(cells);
         }
     }
-    let mut out = format!(
-        "\nReactions on the first body (N, N·m):\n{}",
-        columns(&table)
-    );
-    for (k, choice) in choices.iter().enumerate() {
-        out.push_str(&wrapped(&format!("choice {}: ", k + 1), &choice.label));
-    }
+    let heading = "Reactions on the first body (N, N·m):".to_owned();
+    let mut out = vec![Block::Heading(heading), Block::Table(table)];
+    let label = |(k, choice): (usize, &DistributionDocument)| {
+        Block::Legend(format!("choice {}", k + 1), choice.label.clone())
+    };
+    out.extend(choices.iter().enumerate().map(label));
     let mut components = first.reactions.iter().flat_map(|r| &r.components);
     if components.any(|component| component.nature.is_none()) {
         // A warning states why the numbers are missing.
@@ -57,7 +56,7 @@ pub(super) fn describe(choices: &[DistributionDocument]) -> String {
         [] => "A change of units leaves what is determined as it is, and changes the rest, as it must.".to_owned(),
         names => format!("warning: under a change of units {} behave otherwise than their verdicts say: do not trust them", names.join(", ")),
     };
-    out.push_str(&wrapped("", &sentence));
+    out.push(Block::sentence(sentence));
     out
 }
 

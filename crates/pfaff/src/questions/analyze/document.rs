@@ -1,59 +1,60 @@
-//! Answers the options of the command line for one configuration.
+//! The document of one configuration, with answers to the options.
 
-use pfaff::rank::{DeletionError, Limits};
-use pfaff::report::AnalysisDocument;
-use pfaff::report::documents::{
+use model::System;
+use rank::{DeletionError, Limits};
+use report::AnalysisDocument;
+use report::documents::{
     DistributionDocument, EliminationsDocument, MakeUniqueDocument, ValuesDocument,
 };
-use pfaff::solvability::{Allowed, EliminationError, UnitError, Verdict};
-use pfaff::{ConfigurationAnalysis, StudyError};
+use scene::in_si;
+use solvability::{Allowed, EliminationError, UnitError, Verdict};
 
+use super::Analyze;
 use super::deletions::HINTS;
-use super::point;
-use crate::args::Analyze;
 use crate::choice;
-use crate::input::Source;
-use crate::output::Failure;
+use crate::configuration::ConfigurationAnalysis;
+use crate::error::StudyError;
+use crate::question::Control;
+use crate::refusal::Refusal;
+use crate::start::Start;
 
-/// Number of sets that are tried for a hint that the command line did not request.
+/// Number of sets that are tried for a hint that nobody requested.
 const HINT_TRIALS: usize = 5_000;
 
 /// All answers except those along the motion.
-pub(super) fn document(
-    arguments: &Analyze,
-    source: &Source,
+pub(super) fn of(
+    asked: &Analyze,
+    of: &Start<'_>,
     configuration: &ConfigurationAnalysis<'_>,
-) -> Result<AnalysisDocument, Failure> {
-    let failure = |e: StudyError| source.failure(e);
-    let layout = pfaff::model::System::layout(configuration.mechanism);
+) -> Result<AnalysisDocument, Refusal> {
+    let failure = |e: StudyError| of.refusal(e);
+    let layout = configuration.mechanism.layout();
     // Names are checked first, because that is cheap.
-    let allowed = choice::allowed(&arguments.allow, layout.rows())?;
-    let wanted = arguments.make_unique.iter();
+    let allowed = choice::allowed(&asked.allow, layout.rows())?;
+    let wanted = asked.make_unique.iter();
     let wanted: Result<Vec<_>, _> = wanted.map(|name| configuration.reaction(name)).collect();
     let wanted = wanted.map_err(failure)?;
     let reaction = |name: &str| configuration.reaction(name);
-    let choices = choice::choices(&arguments.choose, source, (layout.rows(), &reaction))?;
-    let about = arguments.about.as_deref();
-    let about = about.map(|text| point::point(text, configuration));
+    let choices = choice::choices(&asked.choose, of, (layout.rows(), &reaction))?;
+    let about = asked.about.as_deref();
+    let about = about.map(|text| point(text, configuration));
     let about = about.transpose()?;
-    let mut document = configuration
-        .document(&arguments.combine)
-        .map_err(failure)?;
-    if let Some(n) = arguments.eliminations {
+    let mut document = configuration.document(&asked.combine).map_err(failure)?;
+    if let Some(n) = asked.eliminations {
         let sets = configuration.elimination_sets(n);
         document.answers.eliminations = Some(EliminationsDocument::new(
             configuration.eliminations(),
             Some(sets),
         ));
     }
-    for (name, id) in arguments.make_unique.iter().zip(wanted) {
+    for (name, id) in asked.make_unique.iter().zip(wanted) {
         let found = configuration.make_unique(id, &allowed, Limits::default());
         document
             .answers
             .make_unique
             .push(MakeUniqueDocument::new(name, &allowed, found));
     }
-    if arguments.frames {
+    if asked.frames {
         configuration.add_frames(&mut document).map_err(failure)?;
     }
     if let Some(about) = about {
@@ -77,7 +78,7 @@ pub(super) fn document(
         for choice in &choices {
             let distribution = configuration.distribution(choice).map_err(failure)?;
             let mut made = DistributionDocument::new(&distribution, &facts);
-            let sums = configuration.chosen(&arguments.combine, &distribution);
+            let sums = configuration.chosen(&asked.combine, &distribution);
             let sums = document.groups.iter().zip(sums.map_err(failure)?);
             made.groups = sums
                 .filter(|(_, values)| !values.is_empty())
@@ -92,7 +93,11 @@ pub(super) fn document(
 /// For each reaction that is not unique, the deletions that would make it unique.
 pub(super) fn hints(
     configuration: &ConfigurationAnalysis<'_>,
-) -> Result<Vec<MakeUniqueDocument>, Failure> {
+    control: &Control<'_>,
+) -> Result<Vec<MakeUniqueDocument>, Refusal> {
+    if !control.wants_words {
+        return Ok(Vec::new());
+    }
     let limits = Limits {
         trials: HINT_TRIALS,
         ..Limits::default()
@@ -105,9 +110,31 @@ pub(super) fn hints(
             |r| match configuration.make_unique(r.id, &Allowed::Sensible, limits) {
                 Err(EliminationError::Deletion(
                     e @ (DeletionError::TargetShape { .. } | DeletionError::NonFinite { .. }),
-                )) => Err(Failure::stopped(e.to_string())),
+                )) => Err(Refusal::stopped(e.to_string())),
                 found => Ok(MakeUniqueDocument::new(&r.name, &Allowed::Sensible, found)),
             },
         )
         .collect()
+}
+
+/// The point of `--about`: coordinates, or the place of a marker.
+fn point(text: &str, configuration: &ConfigurationAnalysis<'_>) -> Result<[f64; 3], Refusal> {
+    if let Some(place) = configuration.marker(text) {
+        return Ok(place);
+    }
+    let n = configuration.mechanism.layout().space.n_translations();
+    let numbers: Option<Vec<f64>> = text.split(',').map(|x| in_si(x, "1 m")).collect();
+    let mut point = [0.0; 3];
+    match numbers {
+        Some(numbers) if numbers.len() == n => {
+            point[..n].copy_from_slice(&numbers);
+            Ok(point)
+        }
+        _ => {
+            let form = ["X", "Y", "Z"][..n].join(",");
+            Err(Refusal::input(format!(
+                "--about is `{text}`, need {n} numbers as {form} (m, or with units, as 310mm), or the name of a marker"
+            )))
+        }
+    }
 }

@@ -3,15 +3,15 @@
 
 use std::collections::BTreeMap;
 
-use pfaff::report::AnalysisDocument;
+use report::AnalysisDocument;
 
-use crate::output::{columns, wrapped};
+use crate::words::Block;
 
 /// Number of names that are listed.
 const LISTED: usize = 12;
 
 /// Counts by type, and the first names.
-pub(super) fn verdicts(d: &AnalysisDocument) -> String {
+pub(super) fn verdicts(d: &AnalysisDocument) -> Vec<Block> {
     const WORDS: [&str; 3] = ["unique", "not_unique", "undecided"];
     let mut by_type: BTreeMap<&str, [usize; 3]> = BTreeMap::new();
     for r in &d.reactions {
@@ -19,16 +19,13 @@ pub(super) fn verdicts(d: &AnalysisDocument) -> String {
             by_type.entry(r.kind).or_default()[k] += 1;
         }
     }
+    let lines = by_type.iter().map(|(kind, [unique, open, undecided])| {
+        let numbers = [unique + open + undecided, *unique, *open, *undecided];
+        let [all, unique, open, undecided] = numbers.map(|n| n.to_string());
+        [(*kind).to_owned(), all, unique, open, undecided]
+    });
     let header = ["type", "reactions", "unique", "not unique", "undecided"];
-    let mut table = vec![header.map(str::to_owned).to_vec()];
-    for (kind, counts) in &by_type {
-        let total: usize = counts.iter().sum();
-        let numbers = [total, counts[0], counts[1], counts[2]];
-        let mut line = vec![(*kind).to_owned()];
-        line.extend(numbers.map(|n| n.to_string()));
-        table.push(line);
-    }
-    let mut out = format!("\n{}", columns(&table));
+    let mut out = vec![Block::table(header, lines)];
     let of_word = |word: &str| -> Vec<String> {
         let reactions = d.reactions.iter().filter(|r| r.wrench.verdict == word);
         reactions.map(|r| r.name.clone()).collect()
@@ -45,8 +42,7 @@ pub(super) fn verdicts(d: &AnalysisDocument) -> String {
         if names.len() > LISTED {
             listed += &format!(" and {} more (`--json` lists all)", names.len() - LISTED);
         }
-        out.push('\n');
-        out.push_str(&wrapped(said, &listed));
+        out.extend([Block::Gap, Block::after(said, listed)]);
     }
     out
 }

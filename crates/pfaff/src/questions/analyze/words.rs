@@ -2,14 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use pfaff::report::AnalysisDocument;
-use pfaff::report::documents::{
+use report::AnalysisDocument;
+use report::documents::{
     ComponentDocument, GroupDocument, MakeUniqueDocument, MixingDocument, ReactionDocument,
     SensitivityDocument, ValueDocument, VerdictDocument,
 };
 
 use super::{along, counts, data, deletions, numbers, rank};
-use crate::output::{columns, count, wrapped};
+use crate::words::{Block, count};
 
 /// Number of reasons that are listed.
 const REASONS: usize = 10;
@@ -20,65 +20,62 @@ const LINES: usize = 250;
 /// Number of warnings that are listed.
 const WARNINGS: usize = 12;
 
-pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
+pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Block> {
     let mut out = heading(d);
-    out.push_str(&rank::describe(d));
-    out.push_str(&data::describe(d));
-    out.push_str(&if d.reactions.len() > LINES {
+    out.extend(rank::of(d));
+    out.extend(data::of(d));
+    out.extend(if d.reactions.len() > LINES {
         counts::verdicts(d)
     } else {
         verdicts(d)
     });
-    out.push_str(&fragile(d));
-    out.push_str(&groups(d));
-    out.push_str(&frames(d));
-    out.push_str(&moments(d));
-    out.push_str(&why(d));
-    out.push_str(&deletions::describe(d, hints));
-    out.push_str(&numbers::describe(&d.answers.choices));
-    out.extend(d.answers.along.as_ref().map(along::describe));
-    let told = |warning: &&String| {
+    out.extend(fragile(d));
+    out.extend(groups(d));
+    out.extend(frames(d));
+    out.extend(moments(d));
+    out.extend(why(d));
+    out.extend(deletions::of(d, hints));
+    out.extend(numbers::of(&d.answers.choices));
+    out.extend(d.answers.along.iter().flat_map(along::of));
+    let is_new = |warning: &&String| {
         let reason = d.evidence.reason.as_ref();
         !reason.is_some_and(|reason| warning.contains(reason.as_str()))
     };
-    let warnings: Vec<&String> = d.warnings.iter().filter(told).collect();
+    let warnings: Vec<&String> = d.warnings.iter().filter(is_new).collect();
     for warning in warnings.iter().take(WARNINGS) {
-        out.push('\n');
-        out.push_str(&wrapped("warning: ", warning));
+        out.extend([Block::Gap, Block::after("warning: ", *warning)]);
     }
     if warnings.len() > WARNINGS {
         let more = warnings.len() - WARNINGS;
-        out.push_str(&format!("and {more} warnings more (`--json` has all)\n"));
+        out.push(Block::sentence(format!(
+            "and {more} warnings more (`--json` has all)"
+        )));
     }
-    out.push_str(&notes(d));
+    // The notes on reactions in the definitions of the joints.
+    for note in &d.notes {
+        out.extend([Block::Gap, Block::after("note: ", &note.text)]);
+    }
     out
 }
 
-/// The notes on reactions in the definitions of the joints.
-pub(super) fn notes(d: &AnalysisDocument) -> String {
-    let each = d.notes.iter();
-    each.map(|note| format!("\n{}", wrapped("note: ", &note.text)))
-        .collect()
-}
-
 /// The name and the size of the analysed mechanism.
-fn heading(d: &AnalysisDocument) -> String {
+fn heading(d: &AnalysisDocument) -> Vec<Block> {
     let c = &d.configuration;
     let velocities = match c.velocities {
         // In the plane both are three for each body.
         n if n == c.coordinates => String::new(),
         n => format!(", {n} velocities"),
     };
-    format!(
-        "{} at t = {} s\n{}, {}{velocities}, {}: {} holonomic, {} nonholonomic\n",
-        d.configuration.scene,
-        d.configuration.time,
-        count(d.configuration.bodies, "body", "bodies"),
-        count(d.configuration.coordinates, "coordinate", "coordinates"),
-        count(d.configuration.rows, "row", "rows"),
-        d.configuration.holonomic_rows,
-        d.configuration.nonholonomic_rows,
-    )
+    let bodies = count(c.bodies, "body", "bodies");
+    let coordinates = count(c.coordinates, "coordinate", "coordinates");
+    let rows = count(c.rows, "row", "rows");
+    let (holonomic, nonholonomic) = (c.holonomic_rows, c.nonholonomic_rows);
+    vec![
+        Block::sentence(format!("{} at t = {} s", c.scene, c.time)),
+        Block::sentence(format!(
+            "{bodies}, {coordinates}{velocities}, {rows}: {holonomic} holonomic, {nonholonomic} nonholonomic"
+        )),
+    ]
 }
 
 /// A word of the document in prose, as `not unique` for `not_unique`.
@@ -86,34 +83,27 @@ pub(super) fn spoken(word: &str) -> String {
     word.replace('_', " ")
 }
 
-fn verdicts(d: &AnalysisDocument) -> String {
-    let mut out = "\n".to_owned();
+fn verdicts(d: &AnalysisDocument) -> Vec<Block> {
+    let mut out = vec![Block::Gap];
+    let mut say = |lead: &str, text: String| {
+        if !text.is_empty() {
+            out.push(Block::after(format!("{:<12}", format!("{lead}:")), text));
+        }
+    };
     let words = ["unique", "not_unique", "undecided"];
-    let named = words.map(|word| {
+    for word in words {
         let reactions = d.reactions.iter().filter(|r| r.wrench.verdict == word);
         let names: Vec<&str> = reactions.map(|r| r.name.as_str()).collect();
-        (word, names)
-    });
-    for (word, names) in named.iter().filter(|(_, names)| !names.is_empty()) {
-        let lead = format!("{:<12}", format!("{}:", spoken(word)));
-        out.push_str(&wrapped(&lead, &names.join(", ")));
+        say(&spoken(word), names.join(", "));
     }
-    let hanging = d.fragile_names();
-    if !hanging.is_empty() {
-        let lead = format!("{:<12}", "FRAGILE:");
-        out.push_str(&wrapped(&lead, &hanging.join(", ")));
-    }
+    say("FRAGILE", d.fragile_names().join(", "));
     let differing: Vec<_> = d.reactions.iter().flat_map(|r| r.differing()).collect();
     let elsewhere = words.iter().filter_map(|word| {
         let names = differing.iter().filter(|(_, generic)| generic == word);
         let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
         (!names.is_empty()).then(|| format!("{}: {}", spoken(word), names.join(", ")))
     });
-    let elsewhere: Vec<String> = elsewhere.collect();
-    if !elsewhere.is_empty() {
-        let lead = format!("{:<12}", "elsewhere:");
-        out.push_str(&wrapped(&lead, &elsewhere.join("; ")));
-    }
+    say("elsewhere", elsewhere.collect::<Vec<_>>().join("; "));
     let header = [
         "reaction",
         "type",
@@ -122,14 +112,11 @@ fn verdicts(d: &AnalysisDocument) -> String {
         "margin",
         "components",
     ];
-    let mut table = vec![header.map(str::to_owned).to_vec()];
-    table.extend(d.reactions.iter().map(line));
-    out.push('\n');
-    out.push_str(&columns(&table));
+    out.push(Block::table(header, d.reactions.iter().map(line)));
     out
 }
 
-fn line(r: &ReactionDocument) -> Vec<String> {
+fn line(r: &ReactionDocument) -> [String; 6] {
     let adjacent = r.rows.chunk_by(|row, next| row + 1 == *next);
     let ranges = adjacent.map(|rows| match rows {
         [first, .., last] => format!("{first}–{last}"),
@@ -141,7 +128,7 @@ fn line(r: &ReactionDocument) -> Vec<String> {
         "unique" => fragile_components(r),
         _ => each(&r.components) + &oblique(r),
     };
-    vec![
+    [
         r.name.clone(),
         r.kind.to_owned(),
         rows,
@@ -167,18 +154,15 @@ fn hanging(data: &SensitivityDocument) -> &'static str {
 }
 
 /// The data that fragile reactions depend on.
-fn fragile(d: &AnalysisDocument) -> String {
+fn fragile(d: &AnalysisDocument) -> Vec<Block> {
     let sentences = &d.fragile;
-    if sentences.is_empty() {
-        return String::new();
-    }
-    let mut out = "\n".to_owned();
-    for sentence in sentences.iter().take(REASONS) {
-        out.push_str(&wrapped("FRAGILE: ", sentence));
-    }
+    let first = sentences.iter().take(REASONS);
+    let mut out: Vec<Block> = first.map(|text| Block::after("FRAGILE: ", text)).collect();
     if sentences.len() > REASONS {
         let more = sentences.len() - REASONS;
-        out.push_str(&format!("and {more} sentences more (`--json` has all)\n"));
+        out.push(Block::sentence(format!(
+            "and {more} sentences more (`--json` has all)"
+        )));
     }
     out
 }
@@ -218,7 +202,7 @@ fn oblique(r: &ReactionDocument) -> String {
     let is_oblique = |d: &&Vec<f64>| d.iter().filter(|x| **x != 0.0).count() > 1;
     let names = r.direction_components();
     let directions = r.unique_directions.iter().flatten().enumerate();
-    let told = directions.filter(|(_, d)| is_oblique(d)).map(|(k, d)| {
+    let words = directions.filter(|(_, d)| is_oblique(d)).map(|(k, d)| {
         let terms = d.iter().zip(&names).filter(|(x, _)| **x != 0.0);
         let terms: Vec<String> = terms.map(|(x, name)| format!("{x:.3}·{name}")).collect();
         let fragile = r.direction_sensitivities.get(k).map_or("", hanging);
@@ -227,11 +211,11 @@ fn oblique(r: &ReactionDocument) -> String {
             terms.join(" + ").replace("+ -", "− ")
         )
     });
-    told.collect()
+    words.collect()
 }
 
-fn groups(d: &AnalysisDocument) -> String {
-    let mut out = String::new();
+fn groups(d: &AnalysisDocument) -> Vec<Block> {
+    let mut out = Vec::new();
     for g in &d.groups {
         let mut text = format!(
             "{}{} (margin {})",
@@ -245,13 +229,12 @@ fn groups(d: &AnalysisDocument) -> String {
             margin(&g.verdict)
         );
         text.push_str(&numbers_of(g));
-        out.push_str(&wrapped(&format!("{}: ", g.name), &text));
+        out.push(Block::after(format!("{}: ", g.name), text));
     }
-    if out.is_empty() {
-        out
-    } else {
-        format!("\nSums and groups:\n{out}")
+    if !out.is_empty() {
+        out.insert(0, Block::Heading("Sums and groups:".to_owned()));
     }
+    out
 }
 
 /// The components of a group: a unique one with its number if it is known, the others with their
@@ -287,20 +270,18 @@ fn numbers_of(g: &GroupDocument) -> String {
 }
 
 /// Moments about the point that was asked for, and points about which moments are unique.
-fn moments(d: &AnalysisDocument) -> String {
-    let mut out = String::new();
-    let asked = d
-        .reactions
-        .iter()
-        .filter_map(|r| Some((r, r.moment.as_ref()?)));
-    let asked: Vec<_> = asked.collect();
-    if let Some((_, moment)) = asked.first() {
-        let mut table = Vec::new();
-        for (r, moment) in &asked {
-            table.push(vec![r.name.clone(), each(&moment.components)]);
-        }
+fn moments(d: &AnalysisDocument) -> Vec<Block> {
+    let mut out = Vec::new();
+    let wanted = d.reactions.iter();
+    let wanted: Vec<_> = wanted
+        .filter_map(|r| Some((r, r.moment.as_ref()?)))
+        .collect();
+    if let Some((_, moment)) = wanted.first() {
         let about = coordinates(&moment.about);
-        out.push_str(&format!("\nMoments about {about} m:\n{}", columns(&table)));
+        out.push(Block::Heading(format!("Moments about {about} m:")));
+        let lines = wanted.iter();
+        let lines = lines.map(|(r, moment)| vec![r.name.clone(), each(&moment.components)]);
+        out.push(Block::Table(lines.collect()));
     }
     let mut centres: Vec<(String, Vec<&str>)> = Vec::new();
     for r in &d.reactions {
@@ -318,8 +299,7 @@ fn moments(d: &AnalysisDocument) -> String {
             _ => (format!("The moments of `{}`", names.join("`, `")), "are"),
         };
         let text = format!("{names} {verb} unique about {centre}, though not about the place.");
-        out.push('\n');
-        out.push_str(&wrapped("", &text));
+        out.extend([Block::Gap, Block::sentence(text)]);
     }
     out
 }
@@ -332,50 +312,50 @@ fn coordinates(point: &[f64]) -> String {
 }
 
 /// Only for reactions that are not unique; the others are unique in every frame.
-fn frames(d: &AnalysisDocument) -> String {
-    let header = ["reaction", "frame", "first axis", "components"];
-    let mut table = vec![header.map(str::to_owned).to_vec()];
+fn frames(d: &AnalysisDocument) -> Vec<Block> {
     let open = d.reactions.iter().filter(|r| r.wrench.verdict != "unique");
-    for r in open {
-        for f in &r.frames {
+    let lines = open.flat_map(|r| {
+        r.frames.iter().map(|f| {
             let axis = f.axes[0].iter().map(|x| format!("{x:.3}"));
             let axis = axis.collect::<Vec<_>>().join(", ");
-            table.push(vec![
+            [
                 r.name.clone(),
                 spoken(f.frame),
                 format!("({axis})"),
                 each(&f.components),
-            ]);
-        }
+            ]
+        })
+    });
+    let lines: Vec<_> = lines.collect();
+    if lines.is_empty() {
+        return Vec::new();
     }
-    match table.len() {
-        1 => String::new(),
-        _ => format!("\nIn other frames:\n{}", columns(&table)),
-    }
+    let header = ["reaction", "frame", "first axis", "components"];
+    let heading = Block::Heading("In other frames:".to_owned());
+    vec![heading, Block::table(header, lines)]
 }
 
-fn why(d: &AnalysisDocument) -> String {
+fn why(d: &AnalysisDocument) -> Vec<Block> {
     if d.reasons.dependencies.is_empty() {
-        return String::new();
+        return Vec::new();
     }
-    let mut out = "\nWhy:\n".to_owned();
+    let mut out = vec![Block::Heading("Why:".to_owned())];
     // One dependency that contains all mixing rows replaces the list.
     let of_dependencies: BTreeSet<&Vec<String>> =
         d.reasons.dependencies.iter().map(|x| &x.joints).collect();
-    let is_told = |m: &&MixingDocument| of_dependencies.contains(&m.reactions);
+    let is_said = |m: &&MixingDocument| of_dependencies.contains(&m.reactions);
     let mixing = d
         .reasons
         .mixing
         .iter()
-        .filter(|m| m.redundancy > 1 || !is_told(m));
+        .filter(|m| m.redundancy > 1 || !is_said(m));
     let dependencies = d.reasons.dependencies.iter().map(|x| &x.text);
     let reasons: Vec<&String> = mixing.map(|m| &m.text).chain(dependencies).collect();
-    for text in reasons.iter().take(REASONS) {
-        out.push_str(&wrapped("- ", text));
-    }
+    let item = |text: &str| Block::after("- ", text);
+    out.extend(reasons.iter().take(REASONS).map(|text| item(text)));
     if reasons.len() > REASONS {
         let more = reasons.len() - REASONS;
-        out.push_str(&format!("- and {more} more (`--json` has all)\n"));
+        out.push(item(&format!("and {more} more (`--json` has all)")));
     }
     out
 }
