@@ -9,7 +9,6 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use pfaff::RunOptions;
 use pfaff::command::named;
 use pfaff::import::Base;
 use pfaff::sweep::{Axis, Shard};
@@ -39,9 +38,6 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     #[command(flatten)]
     Ask(Asked),
-    /// Motion and reactions, written into a directory with a report for any browser
-    #[command(after_help = examples::SIMULATE)]
-    Simulate(Simulate),
     /// Many runs with other numbers in the scene: parallel, resumable, in shards
     #[command(after_help = examples::SWEEP)]
     Sweep(Sweep),
@@ -76,8 +72,7 @@ impl Command {
     pub(crate) fn answer(&self) -> Answer {
         let json = match self {
             Self::Ask(asked) => return asked.answer(),
-            Self::Simulate(Simulate { json, .. })
-            | Self::Sweep(Sweep { json, .. })
+            Self::Sweep(Sweep { json, .. })
             | Self::WorkPrecision(WorkPrecision { json, .. })
             | Self::New(New { json, .. })
             | Self::Import(Import { json, .. })
@@ -87,26 +82,6 @@ impl Command {
         };
         if json { Answer::Json } else { Answer::Words }
     }
-}
-
-#[derive(Args)]
-pub(crate) struct Simulate {
-    /// Scene file, or - for standard input
-    pub(crate) scene: PathBuf,
-    #[command(flatten)]
-    pub(crate) place: Place,
-    #[command(flatten)]
-    pub(crate) run: RunOptions,
-    /// Choose the numbers of choice.csv (choice_2.csv, …): as of analyze; repeatable
-    #[arg(long, value_name = "CHOICE")]
-    pub(crate) choose: Vec<String>,
-    #[command(flatten)]
-    pub(crate) known: Known,
-    #[command(flatten)]
-    pub(crate) resources: Resources,
-    /// The summary as one JSON document on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
 }
 
 /// Where results are written.

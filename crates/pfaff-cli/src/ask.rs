@@ -2,19 +2,21 @@
 //! the ways in which its answer is wanted. No question is known by name here.
 
 use std::ffi::OsStr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand, ValueHint, value_parser};
-use pfaff::question::{Control, Ending, Place};
+use pfaff::question::{self, AnyAnswer, Control, Ending, Output, Place};
 use pfaff::questions::{Facts, Questions};
-use pfaff::report::FileError;
+use pfaff::report::documents::EndedDocument;
+use pfaff::report::{FileError, OutputDirectory};
 use pfaff::words;
 
 use crate::args::Known;
 use crate::console::Console;
 use crate::input::Source;
-use crate::interrupt::{Interrupt, NOTHING_WRITTEN};
-use crate::output::{Answer, Failure, Files, Outcome, directory};
+use crate::interrupt::{BY_REQUEST, Interrupt, NOTHING_WRITTEN};
+use crate::output::{Answer, Failure, Files, Outcome, beside, directory, json};
 use crate::progress::Progress;
 use crate::resources::Resources;
 use crate::watch;
@@ -76,7 +78,8 @@ impl Subcommand for Asked {
                 let own = match facts.output {
                     None => own,
                     Some(output) => OutputOptions::augment_args(own).mut_arg("out", |out| {
-                        out.help(format!("Directory for {}", output.contents))
+                        let help = format!("Directory for {}", output.contents);
+                        out.required(output.streams.is_some()).help(help)
                     }),
                 };
                 CommonOptions::augment_args(own).about(about)
@@ -140,11 +143,11 @@ impl Asked {
         self.of.resources.apply(console);
         if self.of.watch {
             return watch::run(&self.scenes, console, || {
-                Ok(self.asked(console, &|| false)?.0)
+                Ok(self.asked(console, Hears::Not)?.0)
             });
         }
-        let interrupt = Interrupt::listen_with(|| NOTHING_WRITTEN.to_owned())?;
-        let (text, ending) = self.asked(console, &|| interrupt.is_asked())?;
+        Interrupt::ends_at_once()?;
+        let (text, ending) = self.asked(console, Hears::Stops)?;
         match ending {
             Ending::Complete => console.print(&text),
             Ending::Partial { .. } | Ending::Stopped => Err(console.incomplete(&text)),
@@ -152,11 +155,7 @@ impl Asked {
     }
 
     /// The answer as text, after its files are written.
-    fn asked(
-        &self,
-        console: &Console<'_>,
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> Result<(String, Ending), Failure> {
+    fn asked(&self, console: &Console<'_>, hears: Hears) -> Result<(String, Ending), Failure> {
         let CommonOptions {
             known, resources, ..
         } = &self.of;
@@ -169,46 +168,120 @@ impl Asked {
             .iter()
             .map(read)
             .collect::<Result<Vec<_>, _>>()?;
-        let out = self.place.as_ref().and_then(|place| {
-            let path = place.out.as_ref()?;
-            Some((path, self.facts.output?.family, place.force))
-        });
         // A place that is none is refused before anything is computed.
-        let place = out.map(|(path, family, force)| {
-            Ok::<_, Failure>((path, family, directory(path, family, force)?))
+        let place = self.place.as_ref().and_then(|place| {
+            let (path, output) = (place.out.as_ref()?, self.facts.output?);
+            Some(Directory::open(path, output, place.force))
         });
         let place = place.transpose()?;
+        let interrupt = match (hears, &place) {
+            (Hears::Not, _) => None,
+            (Hears::Stops, Some(place)) => Some(Interrupt::listen_with(place.last_act())?),
+            (Hears::Stops, None) => Some(Interrupt::listen_with(|| NOTHING_WRITTEN.to_owned())?),
+        };
         let shown = Progress::default();
         let control = Control {
-            stop,
-            progress: &|progress| shown.show(progress),
+            stop: &|| interrupt.as_ref().is_some_and(Interrupt::is_asked),
+            progress: &|progress| match (progress, &place) {
+                (question::Progress::Writing(scene), Some(place)) => place.begins(scene),
+                (progress, _) => shown.show(progress),
+            },
             wants_words: matches!(self.answer(), Answer::Words),
             wants_files: place.is_some(),
+            directory: place.as_ref().map(|place| &place.directory),
             provenance: &provenance(),
             threads: resources.threads,
         };
         let scenes: Vec<_> = scenes.iter().collect();
         let answer = self.question.as_question().ask(&scenes, &control)?;
         drop(shown);
-        let written = match place {
+        let written = match &place {
             None => String::new(),
-            Some((path, family, directory)) => {
-                let mut files = NamedFiles {
-                    files: Files::of(&directory, family)?,
-                    names: Vec::new(),
-                };
-                answer.files(&mut files)?;
-                let NamedFiles { files, names } = files;
-                let beside = files.finish()?;
-                let said = format!("written to {}: {}", path.display(), names.join(", "));
-                format!("\n{}{beside}", words::wrapped("", &said))
-            }
+            Some(place) => place.write(answer.as_ref())?,
         };
         let text = match self.answer() {
             Answer::Json => answer.json()?,
             Answer::Words => words::text(&answer.words()) + &written,
         };
         Ok((text, answer.ending()))
+    }
+}
+
+/// Whether requests to stop are for the answer.
+#[derive(Clone, Copy)]
+enum Hears {
+    Stops,
+    Not,
+}
+
+/// The directory of an answer.
+struct Directory {
+    path: PathBuf,
+    output: Output,
+    directory: OutputDirectory,
+    /// The scene whose results are being written.
+    scene: Arc<Mutex<Option<String>>>,
+}
+
+impl Directory {
+    fn open(path: &Path, output: Output, force: bool) -> Result<Self, Failure> {
+        Ok(Self {
+            path: path.to_owned(),
+            output,
+            directory: directory(path, output.family, force)?,
+            scene: Arc::default(),
+        })
+    }
+
+    fn begins(&self, scene: String) {
+        *self.scene.lock().unwrap_or_else(PoisonError::into_inner) = Some(scene);
+    }
+
+    /// What is done, and said, if the work has to be ended: its tables are kept, and a summary says
+    /// that they are partial.
+    fn last_act(&self) -> impl Fn() -> String + Send + Sync + use<> {
+        let (directory, scene) = (self.directory.clone(), Arc::clone(&self.scene));
+        let Output {
+            family, streams, ..
+        } = self.output;
+        move || {
+            let begun = scene.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            let (Some(scene), Some(summary)) = (begun, streams) else {
+                return NOTHING_WRITTEN.to_owned();
+            };
+            let (error, kept) = ("interrupted", "kept: whole rows of the tables");
+            let document = json(&EndedDocument {
+                scene,
+                partial: true,
+                code: BY_REQUEST,
+                error,
+            });
+            let document = document.unwrap_or_default();
+            let place = directory.path().display();
+            if directory.abandon_as(summary, document.as_bytes(), family) {
+                format!("{error}; {kept} in `{place}`; {summary} says that they are partial")
+            } else {
+                format!("{error}; nothing was written into `{place}`")
+            }
+        }
+    }
+
+    /// Writes the files that are not written yet; says where they are.
+    fn write(&self, answer: &dyn AnyAnswer) -> Result<String, Failure> {
+        let (path, family) = (self.path.display(), self.output.family);
+        if self.output.streams.is_some() {
+            let beside = beside(&self.directory, family);
+            return Ok(format!("written to {path}\n{beside}"));
+        }
+        let mut files = NamedFiles {
+            files: Files::of(&self.directory, family)?,
+            names: Vec::new(),
+        };
+        answer.files(&mut files)?;
+        let NamedFiles { files, names } = files;
+        let beside = files.finish()?;
+        let said = format!("written to {path}: {}", names.join(", "));
+        Ok(format!("\n{}{beside}", words::wrapped("", &said)))
     }
 }
 

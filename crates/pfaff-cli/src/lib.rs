@@ -13,7 +13,6 @@ pub mod output;
 mod picture;
 mod progress;
 mod resources;
-mod simulate;
 mod sweep;
 mod template;
 mod view;
@@ -142,7 +141,6 @@ impl CommandLine for Arguments {
     fn run(&self, console: &Console<'_>) -> Outcome {
         match &self.command {
             Command::Ask(a) => a.run(console),
-            Command::Simulate(a) => simulate::run(a, console),
             Command::Sweep(a) => sweep::run(a, console),
             Command::WorkPrecision(a) => work_precision::run(a, console),
             Command::New(a) => new::run(a, console),

@@ -46,6 +46,7 @@ impl Progress {
                     lines.retain(|line| line.what != what);
                 }
             }
+            question::Progress::Writing(_) => {}
             question::Progress::Motion(what, t, t_end) => {
                 let style = "{bar:40} {msg}, {eta} left";
                 let bar = self.bar(&mut lines, what, style, TICKS as u64);

@@ -57,11 +57,6 @@ impl Resources {
             .budget()
             .assembled(of, source.registry, source.tolerance)?)
     }
-
-    /// See [`Memory::allow`].
-    pub(crate) fn allow(self, bytes: usize, what: &str) -> Result<(), Failure> {
-        self.memory.allow(bytes, what)
-    }
 }
 
 impl Memory {

@@ -18,7 +18,7 @@ use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, Refusal, Shortfall, beside, count, json_or, wrapped};
 use crate::resources::start_threads;
-use crate::simulate::TRUSTED_BALANCE;
+use pfaff::questions::simulate::TRUSTED_BALANCE;
 
 pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;

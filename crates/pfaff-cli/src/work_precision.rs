@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::StudyError;
 use pfaff::report::{
-    Family, OutputDirectory, OutputFile, Provenance, TableError, WorkPrecisionDocument,
+    Family, Origin, OutputDirectory, OutputFile, Provenance, TableError, WorkPrecisionDocument,
     WorkPrecisionRow, WorkPrecisionScene, WorkPrecisionTable, figures, work_precision_page,
 };
 use pfaff::work_precision::{Plan, Rival, Subject, overview, provenance};
@@ -225,6 +225,11 @@ pub fn provenance() -> Provenance {
         date: provenance::date(),
         command: command(),
     }
+}
+
+/// The command and the versions that made a page.
+pub(crate) fn origin() -> Origin {
+    (&provenance()).into()
 }
 
 /// The command line without the directory of the program.

@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use std::sync::LazyLock;
 
 use model::codes::Code;
-use report::{Family, FileError, Origin, Provenance};
+use report::{Family, FileError, Origin, OutputDirectory, Provenance};
 use serde::{Deserialize, Serialize};
 
 use crate::refusal::{Refusal, json};
@@ -113,6 +113,9 @@ pub struct Output {
     pub family: Family,
     /// What they contain, after "Directory for".
     pub contents: &'static str,
+    /// Of files that are written while the answer is computed: the one that says whether the others
+    /// are whole. Then a directory has to be given.
+    pub streams: Option<&'static str>,
 }
 
 /// Where the files of an answer are put: a directory, or memory.
@@ -135,6 +138,8 @@ pub struct Control<'c> {
     pub wants_words: bool,
     /// Whether the files of the answer are wanted, too.
     pub wants_files: bool,
+    /// Where files are written while the answer is computed.
+    pub directory: Option<&'c OutputDirectory>,
     /// Who asks, with what, when: named on pages.
     pub provenance: &'c Provenance,
     /// Number of threads; `None` means one for each core.
@@ -161,6 +166,7 @@ impl Control<'static> {
             progress: &|_| (),
             wants_words: false,
             wants_files: false,
+            directory: None,
             provenance: &UNNAMED,
             threads: None,
         }
@@ -168,7 +174,7 @@ impl Control<'static> {
 }
 
 /// What is done at present.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Progress {
     /// Work on a text of so many bytes, in words.
     Stage(&'static str, usize),
@@ -176,6 +182,8 @@ pub enum Progress {
     Count(&'static str, usize, usize),
     /// What is done along a motion, the time that it has reached, and the last time (s).
     Motion(&'static str, f64, f64),
+    /// Results of the scene with this name are written from now on.
+    Writing(String),
 }
 
 /// A question whose type is known when it is asked.

@@ -6,6 +6,7 @@ pub mod diff;
 pub mod equilibrium;
 pub mod linearise;
 pub mod plan;
+pub mod simulate;
 pub mod tolerance;
 
 use report::read_json;
@@ -18,6 +19,7 @@ pub use diff::Diff;
 pub use equilibrium::Equilibrium;
 pub use linearise::Linearise;
 pub use plan::Plan;
+pub use simulate::Simulate;
 pub use tolerance::Tolerance;
 
 use crate::question::{AnyQuestion, Output, Question, Subject};
@@ -75,6 +77,7 @@ macro_rules! questions {
 
 questions!(
     Analyze,
+    Simulate,
     Plan,
     Check,
     Equilibrium,

@@ -16,11 +16,6 @@ pub(super) const WORK_PRECISION: &str = "Examples:
 
 Build with --release, and keep the machine idle: seconds are compared.";
 
-pub(super) const SIMULATE: &str = "Examples:
-  pfaff simulate robot-trolley.toml --out run                    trajectory.csv, reactions.csv, summary.json
-  pfaff simulate robot-trolley.toml --out run --drop 6,21        with a choice of the rows to eliminate
-  pfaff simulate robot-trolley.toml --out run --t-end 5 --rtol 1e-10 --json";
-
 pub(super) const SCHEMA: &str = "Examples:
   pfaff schema > pfaff.schema.json
 

@@ -40,6 +40,7 @@ impl Question for Equilibrium {
     const OUTPUT: Option<Output> = Some(Output {
         family: Family(&[SCENE, DOCUMENT]),
         contents: "a scene that starts there, at rest",
+        streams: None,
     });
     type Subject<'s> = &'s Start<'s>;
     type Answer = EquilibriumAnswer;

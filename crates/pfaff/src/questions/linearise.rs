@@ -68,6 +68,7 @@ impl Question for Linearise {
             "mode-*.html",
         ]),
         contents: "matrices and modes as tables, and pages on which the modes move",
+        streams: None,
     });
     type Subject<'s> = &'s Start<'s>;
     type Answer = LineariseAnswer;

@@ -67,6 +67,7 @@ impl Question for Tolerance {
     const OUTPUT: Option<Output> = Some(Output {
         family: Family(&[TABLE, DOCUMENT, PAGE]),
         contents: "the samples as a table, the document, and a page",
+        streams: None,
     });
     type Subject<'s> = &'s Start<'s>;
     type Answer = ToleranceAnswer;

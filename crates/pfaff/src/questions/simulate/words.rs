@@ -1,0 +1,158 @@
+//! A run in words.
+
+use model::words::{listed, rounded};
+use report::RunDocument;
+use report::documents::{ChoiceDocument, MisfitDocument, RunReactionDocument, choice_file};
+
+use super::SimulateAnswer;
+use crate::words::{Block, count};
+
+/// Largest error of the energy balance without a warning, as a fraction of the largest kinetic
+/// energy. With the default tolerances the error is below a thousandth of this; larger errors are
+/// visible in a plot.
+pub const TRUSTED_BALANCE: f64 = 1e-3;
+
+pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
+    let d = &answer.document;
+    let mut out = Vec::new();
+    let mut say = |text: String| out.push(Block::sentence(text));
+    let ending = if d.partial {
+        let [at, of] = [d.t_end, answer.t_end].map(rounded);
+        format!("interrupted at t = {at} s of {of}")
+    } else {
+        format!("done to t = {} s", d.t_end)
+    };
+    say(format!(
+        "{}: {ending} with {} ({}, {})",
+        answer.scene, d.method, d.formulation, d.stabilisation
+    ));
+    say(format!(
+        "{} steps, {} rejected, {} evaluations in {:.2} ms",
+        d.steps,
+        d.rejected,
+        d.evaluations,
+        1e3 * d.wall_seconds
+    ));
+    say(format!(
+        "|Φ| ≤ {:.1e}, |C·v − b| ≤ {:.1e}, energy balance {:.1e}",
+        d.max_position_residual, d.max_velocity_residual, d.energy_balance
+    ));
+    if d.energy_balance.is_nan() || d.energy_balance > TRUSTED_BALANCE {
+        say(format!(
+            "warning: the energy balance is off by {:.1e} of the largest kinetic energy: do not trust this run; try \
+             tighter tolerances",
+            d.energy_balance
+        ));
+    }
+    if d.start_correction > 0.0 || d.start_velocity_correction > 0.0 {
+        say(format!(
+            "the start was corrected by {:.1e} in position and {:.1e} in velocity",
+            d.start_correction, d.start_velocity_correction
+        ));
+    }
+    if d.partial {
+        say(d.kept());
+    }
+    for line in MisfitDocument::lines(&d.misfits) {
+        say(format!("within the tolerance: {line}"));
+    }
+    if let Some(spread) = &d.spread {
+        say(format!("which rows are kept is a choice: {spread}"));
+    }
+    for event in &d.events {
+        say(format!("t = {:.6} s: {}", event.time, event.text));
+    }
+    if let Some(warning) = d.data.warning(d.mobility) {
+        say(format!("warning: {warning}"));
+    }
+    let reactions = d.reactions.0.iter().map(|(name, r)| (name, &r.data));
+    let groups = d.groups.0.iter().map(|(name, g)| (name, &g.data));
+    let fragile = reactions.chain(groups).filter(|(_, data)| data.fragile);
+    let fragile: Vec<&str> = fragile.map(|(name, _)| name.as_str()).collect();
+    if !fragile.is_empty() {
+        say(format!(
+            "warning: unique but fragile at the start: {}. Their numbers are made of the last digits of the data; summary.json says of which.",
+            listed(&fragile),
+        ));
+    }
+    out.extend(open(d).into_iter().map(Block::sentence));
+    if answer.has_report {
+        let words = "report.html opens in any browser";
+        out.push(Block::sentence(words));
+    }
+    out
+}
+
+/// What the model does not determine, and where its numbers are.
+fn open(d: &RunDocument) -> Vec<String> {
+    let of = |word: &str| -> Vec<&str> {
+        let reactions = d.reactions.0.iter();
+        let is = |r: &RunReactionDocument| r.of_run.as_ref().is_some_and(|v| v.verdict == word);
+        let those = reactions.filter(|(_, r)| is(r));
+        those.map(|(name, _)| name.as_str()).collect()
+    };
+    let mut out = Vec::new();
+    let undecided = of("undecided");
+    if !undecided.is_empty() {
+        let names = listed(&undecided);
+        out.push(format!(
+            "undecided: {names}; summary.json gives the reasons."
+        ));
+    }
+    let open = of("not_unique");
+    let Some(solutions) = solutions(&d.choice).filter(|_| !open.is_empty()) else {
+        return out;
+    };
+    let names = listed(&open);
+    out.push(format!(
+        "not determined by the model: {names}. In reactions.csv only what is determined has numbers; {solutions}.",
+    ));
+    for (k, choice) in d.choice.iter().enumerate() {
+        let Some(gap) = &choice.gap else { continue };
+        let rows = count(gap.rows, "row", "rows");
+        let file = choice.file.clone().unwrap_or_else(|| choice_file(k));
+        let (first, reason) = (rounded(gap.first), &gap.reason);
+        out.push(format!(
+            "warning: {file} has empty cells in {rows}, the first at t = {first} s: {reason}"
+        ));
+    }
+    let some = open.iter();
+    let some = some.filter_map(|name| partly(name, d.reactions.get(name)?));
+    let some: Vec<String> = some.collect();
+    if !some.is_empty() {
+        let some = some.join("; ");
+        out.push(format!("determined on parts of the run: {some}."));
+    }
+    out
+}
+
+/// Which tables have which solutions, in words.
+fn solutions(choices: &[ChoiceDocument]) -> Option<String> {
+    let [first, others @ ..] = choices else {
+        return None;
+    };
+    if first.file.is_none() {
+        let more = match others {
+            [] => "",
+            _ => " at first; summary.json has the others",
+        };
+        return Some(format!(
+            "choice.csv has one solution of many ({first}{more})"
+        ));
+    }
+    let each = choices.iter().filter_map(|choice| {
+        let file = choice.file.as_ref()?;
+        Some(format!("{file} has one solution of many ({choice})"))
+    });
+    Some(each.collect::<Vec<_>>().join("; "))
+}
+
+/// The components of a reaction that are determined on parts of the run.
+fn partly(name: &str, reaction: &RunReactionDocument) -> Option<String> {
+    let components = reaction.components.0.iter();
+    let some = components.filter(|(_, c)| !c.of_run.determined.is_empty());
+    let some: Vec<String> = some
+        .map(|(component, c)| format!("{name}.{component} on {}", c.of_run.on_intervals()))
+        .collect();
+    (!some.is_empty()).then(|| some.join(", "))
+}
