@@ -11,6 +11,7 @@ mod circles;
 mod constants;
 mod lines;
 mod modules;
+mod names;
 mod source;
 mod table;
 #[cfg(test)]
@@ -21,6 +22,7 @@ use serde_json::{Value, json};
 
 use self::lines::Count;
 use self::modules::Modules;
+use self::names::Name;
 use self::source::{Crate, Group};
 use self::table::Table;
 use self::types::Type;
@@ -42,6 +44,7 @@ struct Counted {
     group: Group,
     count: Count,
     types: Vec<Type>,
+    names: Vec<Name>,
     circles: Vec<circles::Circle>,
 }
 
@@ -59,6 +62,7 @@ pub(crate) fn tell(is_json: bool, check: bool) -> Result<String, String> {
             types_table("stateful types", &counted, true),
             types_table("plain data", &counted, false),
             circles_table(&counted),
+            names_table(&counted),
             constants_table(&crates),
             limits,
         ]
@@ -87,6 +91,7 @@ fn count(home: &Crate) -> Counted {
         group: home.group,
         count,
         types: types::large(&modules),
+        names: names::unclear(&modules),
         circles: circles::circles(&modules, CIRCLE_MOST),
     }
 }
@@ -213,6 +218,30 @@ fn circles_table(counted: &[Counted]) -> Table {
     }
 }
 
+fn names_table(counted: &[Counted]) -> Table {
+    let product = counted.iter().filter(|c| c.group == Group::Product);
+    let rows = product.flat_map(|home| {
+        home.names.iter().map(|name| {
+            let noun = if name.is_noun { "" } else { "no" };
+            vec![
+                json!(home.name),
+                json!(name.name),
+                json!(name.files.len()),
+                json!(noun),
+                json!(name.files.join(" ")),
+            ]
+        })
+    });
+    Table {
+        name: "names",
+        rule:
+            "of types of the product: what several types of a crate are called, and what is no noun"
+                .into(),
+        columns: &["crate", "name", "types", "noun", "files"],
+        rows: rows.collect(),
+    }
+}
+
 fn constants_table(crates: &[Crate]) -> Table {
     let homes = crates
         .iter()
@@ -275,6 +304,8 @@ fn limits(counted: &[Counted]) -> Table {
         .iter()
         .flat_map(|c| &c.types)
         .filter(|t| t.is_stateful);
+    let product = counted.iter().filter(|c| c.group == Product);
+    let names = product.flat_map(|c| &c.names);
     let limits = [
         (
             "lines of product, laboratory and beside",
@@ -292,6 +323,16 @@ fn limits(counted: &[Counted]) -> Table {
             DYNAMICS_MOST,
         ),
         ("stateful types above the bounds", stateful.count(), 0),
+        (
+            "names of several types of one crate",
+            names.clone().filter(|n| n.files.len() > 1).count(),
+            names::SHARED_MOST,
+        ),
+        (
+            "types that are no nouns",
+            names.filter(|n| !n.is_noun).count(),
+            0,
+        ),
         (
             "circles of more than two modules",
             counted.iter().map(|c| c.circles.len()).sum(),

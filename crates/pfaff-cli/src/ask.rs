@@ -18,9 +18,9 @@ use crate::input::Source;
 use crate::interrupt::{BY_REQUEST, Interrupt, NOTHING_WRITTEN};
 use crate::output::{Answer, Failure, Files, Outcome, beside, directory, json};
 use crate::progress::Progress;
+use crate::provenance::provenance;
 use crate::resources::Resources;
 use crate::watch;
-use crate::work_precision::provenance;
 
 /// A question that is asked on the command line.
 pub(crate) struct Asked {

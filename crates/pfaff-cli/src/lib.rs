@@ -12,6 +12,7 @@ mod new;
 pub mod output;
 mod picture;
 mod progress;
+pub mod provenance;
 mod resources;
 mod sweep;
 mod template;

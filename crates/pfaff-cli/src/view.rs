@@ -19,7 +19,7 @@ use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, count, write_file};
 use crate::picture::{can_paint, missing, unpainted};
-use crate::work_precision::origin;
+use crate::provenance::origin;
 use pfaff::start::document_of;
 
 pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {

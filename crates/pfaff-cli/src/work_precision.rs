@@ -1,15 +1,14 @@
 //! `pfaff work-precision`: error versus run time, as a table, a figure and a page.
 
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::StudyError;
 use pfaff::report::{
-    Family, Origin, OutputDirectory, OutputFile, Provenance, TableError, WorkPrecisionDocument,
-    WorkPrecisionRow, WorkPrecisionScene, WorkPrecisionTable, figures, work_precision_page,
+    Family, OutputDirectory, OutputFile, TableError, WorkPrecisionDocument, WorkPrecisionRow,
+    WorkPrecisionScene, WorkPrecisionTable, figures, work_precision_page,
 };
-use pfaff::work_precision::{Plan, Rival, Subject, overview, provenance};
+use pfaff::work_precision::{Plan, Rival, Subject, overview};
 
 use crate::args::{Settings, WorkPrecision};
 use crate::console::Console;
@@ -17,6 +16,7 @@ use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, Shortfall, beside, directory, json_or, wrapped};
 use crate::picture::{can_paint, unpainted};
+use crate::provenance::provenance;
 use crate::resources::{Resources, start_threads};
 
 pub(crate) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
@@ -209,46 +209,6 @@ enum Interruption {
 impl From<StudyError> for Interruption {
     fn from(error: StudyError) -> Self {
         Self::Study(error)
-    }
-}
-
-/// The machine, versions, date and command of the results.
-#[must_use]
-pub fn provenance() -> Provenance {
-    Provenance {
-        machine: provenance::machine(),
-        versions: format!(
-            "pfaff {}, {}",
-            env!("CARGO_PKG_VERSION"),
-            env!("PFAFF_COMPILER")
-        ),
-        date: provenance::date(),
-        command: command(),
-    }
-}
-
-/// The command and the versions that made a page.
-pub(crate) fn origin() -> Origin {
-    (&provenance()).into()
-}
-
-/// The command line without the directory of the program.
-fn command() -> String {
-    let mut arguments = std::env::args_os();
-    let program = arguments.next().map(PathBuf::from).unwrap_or_default();
-    let program = program.file_stem().map(OsStr::to_os_string);
-    let words = program.into_iter().chain(arguments);
-    let words: Vec<String> = words.map(|a| quoted(&a.to_string_lossy())).collect();
-    words.join(" ")
-}
-
-/// A word of a command line as a shell reads it.
-fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,=+@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
     }
 }
 

@@ -5,6 +5,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use super::circles::circles;
 use super::constants::{Constant, constants};
 use super::modules::Modules;
+use super::names::unclear;
 use super::source::{Crate, Group, Kind, Source, crates, folders_in, group, kind, submodules};
 use super::table::{Table, json, plain};
 use super::types::large;
@@ -77,15 +78,16 @@ fn a_limit_is_exceeded_by_one_line() {
             group: Group::Product,
             count,
             types: Vec::new(),
+            names: Vec::new(),
             circles: Vec::new(),
         };
         let rows = limits(&[counted]).rows;
         rows.iter().map(|r| r[3] == "exceeded").collect::<Vec<_>>()
     };
-    assert_eq!(verdict(DYNAMICS_MOST), [false; 5]);
+    assert_eq!(verdict(DYNAMICS_MOST), [false; 7]);
     assert_eq!(
         verdict(DYNAMICS_MOST + 1),
-        [false, false, true, false, false]
+        [false, false, true, false, false, false, false]
     );
 }
 
@@ -351,4 +353,26 @@ fn a_condition_on_another_system_is_seen() {
         of("#[cfg(target_os = \"macos\")] mod a;"),
         ["target_os = \"macos\""]
     );
+}
+
+#[test]
+fn names_are_unclear_if_two_types_have_them_or_they_are_no_nouns() {
+    let home = house(&[
+        ("src/lib.rs", "mod a; mod b; struct Speed; struct Known;"),
+        (
+            "src/a.rs",
+            "struct Rows; enum Asked { A } struct KnownRows;",
+        ),
+        (
+            "src/b.rs",
+            "type Rows = usize; trait KeptRow {} #[cfg(test)] mod tests { struct Told; }",
+        ),
+    ]);
+    let found = unclear(&Modules::of(&home));
+    let found: Vec<_> = found
+        .iter()
+        .map(|n| (n.name.as_str(), n.files.len(), n.is_noun))
+        .collect();
+    let expected = [("Asked", 1, false), ("Known", 1, false), ("Rows", 2, true)];
+    assert_eq!(found, expected);
 }

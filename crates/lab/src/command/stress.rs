@@ -17,7 +17,7 @@ use pfaff_cli::console::Console;
 use pfaff_cli::input::unknown;
 use pfaff_cli::interrupt::Interrupt;
 use pfaff_cli::output::{Failure, Outcome, columns, count, wrapped};
-use pfaff_cli::work_precision::provenance;
+use pfaff_cli::provenance::provenance;
 
 #[derive(Args)]
 pub(super) struct Stress {

@@ -35,8 +35,8 @@ impl Question for Check {
             Judged::Moves(study) => study.check_drives().and_then(|()| {
                 let start = study.analyse(0.0, None)?;
                 let prepared = &study.prepared;
-                let mut answer = CheckAnswer::new(judged.parts(), &prepared.assembly.correction);
-                answer.moves(&start.freedoms()?, &prepared.mechanism);
+                let answer = CheckAnswer::new(judged.parts(), &prepared.assembly.correction);
+                let mut answer = answer.moving(&start.freedoms()?, &prepared.mechanism);
                 answer.start_velocity_correction =
                     Some(answer::largest(&prepared.velocity_correction));
                 let hanging = fragile(&start)?;

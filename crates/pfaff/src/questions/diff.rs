@@ -8,9 +8,10 @@ use serde::Deserialize;
 
 pub use answer::{DiffAnswer, DiffBody, DiffChange, DiffMotion, DiffReaction, DiffSide};
 
-use crate::question::{Control, Question};
+use crate::question::{Answer, Control, Question};
 use crate::refusal::Refusal;
 use crate::start::{Judged, Start, document_of};
+use crate::words::Block;
 
 /// Compare two scenes: ranks, verdicts, dependencies, motion
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -36,6 +37,12 @@ impl Question for Diff {
         let names = [0, 1].map(|k| of[k].name.as_str());
         let motion = motion(names, [&judged[0], &judged[1]]);
         Ok(DiffAnswer::new(names, &documents, motion))
+    }
+}
+
+impl Answer for DiffAnswer {
+    fn words(&self) -> Vec<Block> {
+        words::of(self)
     }
 }
 

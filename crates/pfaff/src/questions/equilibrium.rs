@@ -5,18 +5,19 @@ mod words;
 
 use dynamics::equilibrium::EquilibriumOptions;
 use model::System;
-use report::Family;
 use report::documents::Named;
+use report::{Family, PROVENANCE};
 use serde::Deserialize;
 
 pub use answer::{EquilibriumAnswer, ReactionAtRest, RestingBody};
 
 use crate::error::StudyError;
-use crate::question::{Control, Output, Question};
-use crate::refusal::Refusal;
+use crate::question::{Answer, Control, Output, Place, Question};
+use crate::refusal::{Refusal, json};
 use crate::run_options::RunOptions;
 use crate::start::Start;
 use crate::study::Study;
+use crate::words::Block;
 
 /// A start at rest: where forces balance near the described start
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -60,9 +61,23 @@ impl Question for Equilibrium {
             Study::read(SCENE, &text, of.registry, &RunOptions::default()).map_err(|e| {
                 Refusal::stopped(format!("the scene that starts at rest cannot be read: {e}"))
             })?;
-            answer.start_there(text);
+            let head = "equilibrium: `start` says where bodies start, at rest";
+            answer.text_at_rest = format!("{PROVENANCE} {head}\n{text}");
+            answer.file = Some(SCENE);
         }
         Ok(answer)
+    }
+}
+
+impl Answer for EquilibriumAnswer {
+    fn words(&self) -> Vec<Block> {
+        words::of(self)
+    }
+
+    fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {
+        place.put(SCENE, self.text_at_rest.as_bytes())?;
+        place.put(DOCUMENT, json(self)?.as_bytes())?;
+        Ok(())
     }
 }
 

@@ -11,9 +11,10 @@ use serde::Deserialize;
 
 pub use answer::{LineariseAnswer, ModeOfMotion, NamedInput, NamedState, SecondOrderMatrices};
 
-use crate::question::{Control, Output, Question};
-use crate::refusal::Refusal;
+use crate::question::{Answer, Control, Output, Place, Question};
+use crate::refusal::{Refusal, json};
 use crate::start::Start;
+use crate::words::Block;
 
 /// Small motions about a state at rest or a steady one: matrices, eigenvalues, modes
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -88,5 +89,25 @@ impl Question for Linearise {
             answer.pages = page::all(&study, &found, modes, &control.provenance.into());
         }
         Ok(answer)
+    }
+}
+
+impl Answer for LineariseAnswer {
+    fn words(&self) -> Vec<Block> {
+        words::of(self)
+    }
+
+    fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {
+        for (name, text) in tables::matrices(self)? {
+            place.put(name, &text)?;
+        }
+        if self.modes.is_some() {
+            place.put(MODES, &tables::modes(MODES, self)?)?;
+        }
+        place.put(DOCUMENT, json(self)?.as_bytes())?;
+        for (k, page) in &self.pages {
+            place.put(&format!("mode-{}.html", k + 1), page.as_bytes())?;
+        }
+        Ok(())
     }
 }

@@ -7,11 +7,12 @@ use serde::Deserialize;
 
 pub use answer::{PlanAnswer, PlannedComponent, PlannedDecision, PlannedSaving};
 
-use crate::question::{Control, Question};
+use crate::question::{Answer, Control, Question};
 use crate::refusal::Refusal;
 use crate::run_options::RunOptions;
 use crate::start::Start;
 use crate::sweep::{Axis, Sweep, SweepError};
+use crate::words::Block;
 
 /// What a run of the scene computes and omits, and why
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -48,5 +49,11 @@ impl Question for Plan {
             }
         };
         Ok(PlanAnswer::new(&plan, memory, sweep))
+    }
+}
+
+impl Answer for PlanAnswer {
+    fn words(&self) -> Vec<Block> {
+        words::of(self)
     }
 }

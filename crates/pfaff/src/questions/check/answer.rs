@@ -47,10 +47,10 @@ pub struct CheckAnswer {
     pub warnings: Vec<String>,
     /// Number of joints and drives.
     #[serde(skip)]
-    reactions: usize,
+    pub reactions: usize,
     /// The mobility in words.
     #[serde(skip)]
-    freedoms: Option<String>,
+    pub freedoms: Option<String>,
 }
 
 impl CheckAnswer {
@@ -78,13 +78,16 @@ impl CheckAnswer {
         }
     }
 
-    /// Adds how the mechanism can move.
-    pub(super) fn moves(&mut self, freedoms: &Freedoms, mechanism: &Mechanism) {
+    /// The same with how the mechanism can move.
+    pub(super) fn moving(self, freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
         let document = FreedomsDocument::new(freedoms, mechanism);
-        self.mobility = Some(freedoms.mobility);
-        self.mobility_without_drives = document.mobility_without_drives();
-        self.cannot_move = document.cannot_move;
-        self.freedoms = Some(document.summary(freedoms.mobility));
+        Self {
+            mobility: Some(freedoms.mobility),
+            mobility_without_drives: document.mobility_without_drives(),
+            cannot_move: document.cannot_move,
+            freedoms: Some(document.summary(freedoms.mobility)),
+            ..self
+        }
     }
 }
 

@@ -7,8 +7,6 @@ use report::documents::{ComponentDocument, DependencyDocument, ReactionDocument}
 use serde::Serialize;
 
 use super::comparison::Comparison;
-use crate::question::Answer;
-use crate::words::Block;
 
 /// Comparison of two scenes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -75,12 +73,6 @@ impl DiffAnswer {
             motion,
             motion_not_compared,
         }
-    }
-}
-
-impl Answer for DiffAnswer {
-    fn words(&self) -> Vec<Block> {
-        super::words::of(self)
     }
 }
 

@@ -9,7 +9,7 @@ use model::{FrameState, Mechanism};
 use report::AnalysisDocument;
 use report::documents::{DependencyDocument, ReactionDocument};
 
-use super::{DiffBody, DiffMotion};
+use super::answer::{DiffBody, DiffMotion};
 use crate::error::StudyError;
 use crate::study::Study;
 

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use report::documents::DependencyDocument;
 
-use super::{DiffAnswer, DiffMotion, DiffReaction};
+use super::answer::{DiffAnswer, DiffMotion, DiffReaction};
 use crate::words::Block;
 
 /// Number of bodies whose motion is listed; the document contains all.

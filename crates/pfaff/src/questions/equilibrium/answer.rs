@@ -3,16 +3,11 @@
 use dynamics::equilibrium::{Equilibrium, RestStability};
 use linalg::kernels::norm;
 use model::{Layout, Mechanism, SpaceKind, System};
-use report::PROVENANCE;
 use report::documents::{Named, SensitivityDocument, VerdictDocument};
 use serde::Serialize;
 use solvability::{ReactionValues, ReactionVerdict, Sensitivities, Value};
 
-use super::{DOCUMENT, SCENE};
-use crate::question::{Answer, Place};
-use crate::refusal::{Refusal, json};
 use crate::study::Study;
-use crate::words::Block;
 
 /// A place of rest.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -57,7 +52,7 @@ pub struct EquilibriumAnswer {
     pub file: Option<&'static str>,
     /// The text of that file.
     #[serde(skip)]
-    text_at_rest: String,
+    pub text_at_rest: String,
 }
 
 /// A body at rest.
@@ -148,25 +143,6 @@ impl EquilibriumAnswer {
             file: None,
             text_at_rest: String::new(),
         }
-    }
-
-    /// Adds the text of a scene that starts there.
-    pub(super) fn start_there(&mut self, text: String) {
-        let head = "equilibrium: `start` says where bodies start, at rest";
-        self.text_at_rest = format!("{PROVENANCE} {head}\n{text}");
-        self.file = Some(SCENE);
-    }
-}
-
-impl Answer for EquilibriumAnswer {
-    fn words(&self) -> Vec<Block> {
-        super::words::of(self)
-    }
-
-    fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {
-        place.put(SCENE, self.text_at_rest.as_bytes())?;
-        place.put(DOCUMENT, json(self)?.as_bytes())?;
-        Ok(())
     }
 }
 

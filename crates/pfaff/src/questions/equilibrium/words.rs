@@ -2,7 +2,7 @@
 
 use model::words::rounded;
 
-use super::{EquilibriumAnswer, SCENE};
+use super::answer::EquilibriumAnswer;
 use crate::words::{Block, count, marked};
 
 /// Numbers below this share of the largest of their kind are shown as zero.
@@ -36,9 +36,9 @@ pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
     } else if !d.reactions.0.is_empty() {
         blocks.push(reactions(d));
     }
-    if d.file.is_some() {
+    if let Some(file) = d.file {
         blocks.push(Block::sentence(format!(
-            "`{SCENE}` starts there: `pfaff simulate` and `pfaff linearise` take it"
+            "`{file}` starts there: `pfaff simulate` and `pfaff linearise` take it"
         )));
     }
     blocks

@@ -5,11 +5,6 @@ use linalg::Matrix;
 use report::documents::Named;
 use serde::Serialize;
 
-use super::{DOCUMENT, MODES, tables};
-use crate::question::{Answer, Place};
-use crate::refusal::{Refusal, json};
-use crate::words::Block;
-
 /// A linearised motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -42,7 +37,7 @@ pub struct LineariseAnswer {
     pub modes: Option<Vec<ModeOfMotion>>,
     /// Pages of modes, each with the number of its mode, from 0.
     #[serde(skip)]
-    pub(super) pages: Vec<(usize, String)>,
+    pub pages: Vec<(usize, String)>,
 }
 
 /// A state.
@@ -148,26 +143,6 @@ impl LineariseAnswer {
                 })
                 .collect(),
         }
-    }
-}
-
-impl Answer for LineariseAnswer {
-    fn words(&self) -> Vec<Block> {
-        super::words::of(self)
-    }
-
-    fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {
-        for (name, text) in tables::matrices(self)? {
-            place.put(name, &text)?;
-        }
-        if self.modes.is_some() {
-            place.put(MODES, &tables::modes(self)?)?;
-        }
-        place.put(DOCUMENT, json(self)?.as_bytes())?;
-        for (k, page) in &self.pages {
-            place.put(&format!("mode-{}.html", k + 1), page.as_bytes())?;
-        }
-        Ok(())
     }
 }
 

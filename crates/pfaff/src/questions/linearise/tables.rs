@@ -4,7 +4,7 @@ use std::iter;
 
 use report::{Table, TableError};
 
-use super::{LineariseAnswer, MODES};
+use super::answer::LineariseAnswer;
 
 /// Matrices with the names of their files: a letter and the names of the columns, then the name of
 /// each row and its numbers.
@@ -40,7 +40,7 @@ pub(super) fn matrices(of: &LineariseAnswer) -> Result<Vec<(&'static str, Vec<u8
 
 /// Eigenvalue, frequency with and without its damping, damping ratio and shape of each mode; empty
 /// where there is no such value.
-pub(super) fn modes(of: &LineariseAnswer) -> Result<Vec<u8>, TableError> {
+pub(super) fn modes(file: &'static str, of: &LineariseAnswer) -> Result<Vec<u8>, TableError> {
     let known = [
         "mode",
         "real",
@@ -53,7 +53,7 @@ pub(super) fn modes(of: &LineariseAnswer) -> Result<Vec<u8>, TableError> {
     for state in &of.states {
         header.extend(["re", "im"].map(|part| format!("{}.{part}", state.name)));
     }
-    let mut table = Table::new(MODES, Vec::new(), &header)?;
+    let mut table = Table::new(file, Vec::new(), &header)?;
     for (k, mode) in of.modes.iter().flatten().enumerate() {
         let known = |x: Option<f64>| x.map_or(String::new(), |x| x.to_string());
         let mut row = vec![

@@ -1,6 +1,6 @@
 //! Small motions in words.
 
-use super::{LineariseAnswer, ModeOfMotion};
+use super::answer::{LineariseAnswer, ModeOfMotion};
 use crate::words::{Block, count, marked};
 
 pub(super) fn of(d: &LineariseAnswer) -> Vec<Block> {

@@ -6,9 +6,6 @@ use dynamics::plan::{ComponentPlan, Line, Plan, Saving};
 use report::decision_key;
 use serde::Serialize;
 
-use crate::question::Answer;
-use crate::words::Block;
-
 /// What a run computes and omits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -139,12 +136,6 @@ impl From<Saving> for PlannedSaving {
             of: saving.of,
             what: saving.what.name(),
         }
-    }
-}
-
-impl Answer for PlanAnswer {
-    fn words(&self) -> Vec<Block> {
-        super::words::of(self)
     }
 }
 

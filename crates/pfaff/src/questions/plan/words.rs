@@ -1,6 +1,6 @@
 //! The plan of a run in words.
 
-use super::{PlanAnswer, PlannedDecision};
+use super::answer::{PlanAnswer, PlannedDecision};
 use crate::memory::Bytes;
 use crate::words::{Block, count};
 
