@@ -36,22 +36,23 @@ pub mod deletions;
 pub mod doubles;
 pub mod drawing;
 pub mod examine;
+pub mod expected;
 pub mod families;
 pub mod findings;
+pub mod lift;
 pub mod loads;
 pub mod minimax;
 pub mod near;
 pub mod outcome;
 pub mod pose;
 pub mod ratio;
-pub mod reference;
 pub mod rounded;
-pub mod rows;
 pub mod tally;
 pub mod text;
 pub mod truth;
 pub mod within;
 pub mod words;
+pub mod wrench;
 
 use crate::numbers::Numbers;
 

@@ -5,6 +5,7 @@ use lab::fuzz::exact::answer::answer;
 use lab::fuzz::exact::doubles::Doubles;
 use lab::fuzz::exact::drawing::{Drawing, GROUND, Tie, Vector};
 use lab::fuzz::exact::examine::examine;
+use lab::fuzz::exact::expected::Verdict;
 use lab::fuzz::exact::families::Family;
 use lab::fuzz::exact::findings::{Kind, list};
 use lab::fuzz::exact::pose::{Posed, Writing};
@@ -69,22 +70,16 @@ fn assert_answer(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
     for seed in 0..8 * Writing::ALL.len() as u64 {
         let writing = Writing::ALL[seed as usize % Writing::ALL.len()];
         let posed = Posed::new(drawing, writing, &mut Numbers::new(seed));
-        let truth = Truth::of(&posed);
-        assert_eq!(truth.rank(), rank, "{writing:?}");
-        for (link, placed) in posed.links.iter().enumerate() {
-            let (name, is_unique) = (
-                placed.link.name.as_str(),
-                truth.is_unique(&truth.rows_of(link)),
-            );
-            assert_eq!(
-                is_unique,
-                !not_unique.contains(&name),
-                "{name}, {writing:?}"
-            );
+        let (truth, right) = posed.right();
+        assert_eq!(right.rank, rank, "{writing:?}");
+        for reaction in &right.reactions {
+            let name = reaction.name.as_str();
+            let is_unique = Verdict::from(!not_unique.contains(&name));
+            assert_eq!(reaction.is_unique, is_unique, "{name}, {writing:?}");
         }
         let text = text::text(&posed);
         let document = answer(&text).unwrap_or_else(|e| panic!("{e}\n{text}"));
-        let mut findings = examine(&truth, &document).0;
+        let mut findings = examine(&truth, &right, &document).0;
         // Far from the origin double precision may not be accurate enough for a decision.
         findings.retain(|f| writing != Writing::Far || f.kind.is_wrong());
         assert!(findings.is_empty(), "{writing:?}: {findings:#?}\n{text}");
@@ -195,10 +190,10 @@ fn a_changed_document_is_found_out() {
     let (from, at) = (at(1, 1), at(0, 9));
     drawing.link(&[a, GROUND], Tie::Distance { from, at });
     let posed = Posed::new(&drawing, Writing::AsDrawn, &mut Numbers::new(SEED));
-    let truth = Truth::of(&posed);
+    let (truth, right) = posed.right();
     let document = answer(&text::text(&posed)).expect("it is a scene");
     let kinds = |document: &Value| {
-        let findings = examine(&truth, document).0;
+        let findings = examine(&truth, &right, document).0;
         findings.into_iter().map(|f| f.kind).collect::<Vec<_>>()
     };
     assert_eq!(kinds(&document), []);
@@ -373,10 +368,9 @@ fn a_changed_document_is_found_out_within_a_tolerance() {
         along: at(0, 10),
     };
     let posed = Posed::new(&drawing, Writing::AsDrawn, &mut Numbers::new(SEED));
-    let truth = Truth::of(&posed);
-    assert_eq!((truth.rank(), truth.redundancy()), (3, 1));
     let gravity = [1.0, -10.0];
-    let meant = Meant::of(&truth, SEED, gravity);
+    let meant = Meant::of(&posed, SEED, gravity);
+    assert_eq!((meant.right.rank, meant.right.redundancy), (3, 1));
     assert!(meant.is_permanent);
     let tolerance = 1e-4;
     let precision = Precision {

@@ -5,15 +5,13 @@
 use std::fs;
 
 use lab::fuzz::exact::answer::answer;
+use lab::fuzz::exact::expected::Elsewhere;
 use lab::fuzz::exact::findings::Kind;
-use lab::fuzz::exact::reference::Elsewhere;
 use lab::fuzz::exact::rounded;
 use lab::fuzz::exact::tally::{Suite, Tally};
 use lab::fuzz::space::drawing::{self, Drawing, GROUND};
 use lab::fuzz::space::examine::{compared, examine};
-use lab::fuzz::space::permanence::elsewhere;
 use lab::fuzz::space::text::{Precision, text, text_within};
-use lab::fuzz::space::truth::Truth;
 use lab::fuzz::space::vector::{Motion, Vector, whole};
 use lab::fuzz::space::within::Meant;
 use lab::fuzz::space::{catalogue, lifted, ratio::Ratio, scene};
@@ -156,13 +154,12 @@ fn a_changed_claim_about_other_poses_is_found_out() {
         (bennett, Elsewhere::Same, Some(8), &last[..]),
         (&line, Elsewhere::Higher, None, &here[..]),
     ] {
-        let truth = Truth::of(drawing);
-        assert_eq!(elsewhere(&truth), is);
+        assert_eq!(drawing.right().1.elsewhere, is);
         let precision = digits.map_or_else(Precision::default, |digits| {
             Precision::of_digits(drawing, digits)
         });
         let document = answer(&text_within(drawing, &precision)).expect("it has an answer");
-        let meant = Meant::of(&truth);
+        let meant = Meant::of(drawing);
         let found = |document: &Value| {
             let findings = match digits {
                 None => examine(drawing, document),

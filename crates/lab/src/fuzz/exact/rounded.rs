@@ -17,7 +17,6 @@ use super::findings::Kind;
 use super::pose::{Posed, Writing};
 use super::ratio::Ratio;
 use super::text::{Precision, text_within};
-use super::truth::Truth;
 use super::within::{BEYOND_DOUBT, Judged, Meant};
 
 /// Numbers of significant digits. With the last one no tolerance is stated.
@@ -137,15 +136,14 @@ pub fn outcomes(suite: Suite, seed: u64, drawn: u64) -> Vec<Outcome> {
         return space::within::outcomes(seed, drawn);
     }
     let (family, posed) = posed(suite, seed, drawn);
-    let truth = Truth::of(&posed);
-    if suite == Suite::FullRank && truth.redundancy() > 0 {
-        return Vec::new();
-    }
     let gravity = match suite {
         Suite::Rounded | Suite::Space => GRAVITY,
         Suite::FullRank => [0.0; 2],
     };
-    let meant = Meant::of(&truth, seed, gravity);
+    let meant = Meant::of(&posed, seed, gravity);
+    if suite == Suite::FullRank && meant.right.redundancy > 0 {
+        return Vec::new();
+    }
     let largest = largest_coordinate(&posed);
     let one = |way: usize| {
         let precision = match suite {
@@ -163,7 +161,7 @@ pub fn outcomes(suite: Suite, seed: u64, drawn: u64) -> Vec<Outcome> {
                 ..Precision::default()
             },
         };
-        outcome(suite, family, way, &meant, &precision)
+        outcome(suite, family, way, (&posed, &meant), &precision)
     };
     (0..suite.ways() as usize).map(one).collect()
 }
@@ -172,23 +170,20 @@ fn outcome(
     suite: Suite,
     family: &'static str,
     way: usize,
-    meant: &Meant<'_>,
+    (posed, meant): (&Posed, &Meant<'_>),
     precision: &Precision,
 ) -> Outcome {
-    let text = text_within(meant.truth.posed, precision);
+    let text = text_within(posed, precision);
     let mut judged = Judged::default();
     match panic::catch_unwind(AssertUnwindSafe(|| answer::answer(&text))) {
         Ok(Ok(document)) => match precision.tolerance {
             Some(tolerance) => {
-                let mut posed = meant.truth.posed.clone();
-                posed.known_to = (10.0 * tolerance / meant.from.low).min(0.5);
-                let truth = Truth::of(&posed);
-                judged = meant.with(&truth).judge(&document, tolerance);
+                judged = meant.judge(&document, tolerance);
                 if suite == Suite::FullRank && judged.other_rank.is_some() {
                     judged.other_rank = None;
                 }
             }
-            None => judged.findings = examine(meant.truth, &document),
+            None => judged.findings = examine(&meant.truth, &meant.right, &document),
         },
         Ok(Err(refusal)) => judged.findings.note(Kind::Refused, refusal),
         Err(_) => judged
@@ -201,7 +196,7 @@ fn outcome(
         way,
         truth: format!(
             "{}\nτ* from {:.3e} m to {:.3e} m, tolerance {tolerance:.3e} m, size {:.3e} m, {}",
-            meant.truth.describe(),
+            meant.right.describe(),
             meant.from.low,
             meant.from.high,
             meant.size,
@@ -214,7 +209,7 @@ fn outcome(
         text,
         judged,
         is_far: suite == Suite::FullRank || meant.is_far(tolerance),
-        is_redundant: meant.truth.redundancy() > 0,
+        is_redundant: meant.right.redundancy > 0,
     }
 }
 

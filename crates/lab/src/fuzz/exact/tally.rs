@@ -11,7 +11,6 @@ use super::examine::examine;
 use super::findings::Kind;
 use super::outcome::{Outcome, judged};
 use super::pose::Writing;
-use super::truth::Truth;
 use super::{answer, scene, text};
 use crate::fuzz::space;
 
@@ -56,11 +55,11 @@ impl Suite {
 
 fn in_plane(seed: u64, number: u64) -> Outcome {
     let scene = scene(seed, number);
-    let truth = Truth::of(&scene.posed);
+    let (truth, right) = scene.posed.right();
     let text = text::text(&scene.posed);
     let (findings, rank) = judged(
         || answer::answer(&text),
-        |document| examine(&truth, document),
+        |document| examine(&truth, &right, document),
     );
     Outcome {
         family: scene.family.name(),
@@ -68,8 +67,8 @@ fn in_plane(seed: u64, number: u64) -> Outcome {
         text,
         findings,
         rank,
-        truth: truth.describe(),
-        redundancy: truth.redundancy(),
+        truth: right.describe(),
+        redundancy: right.redundancy,
     }
 }
 

@@ -1,16 +1,16 @@
 //! The answer of the program for a drawing whose numbers have a tolerance, compared with exact
 //! arithmetic and with the distance of the data from a lower rank.
 
-use std::rc::Rc;
-
 use serde_json::Value;
 
 use super::doubles::Doubles;
 use super::drawing::Tie;
 use super::examine::{kept_rows, reactions};
+use super::expected::Expected;
 use super::findings::{Finding, Findings, Kind, list};
 use super::loads::Reactions;
 use super::minimax::Bounds;
+use super::pose::Posed;
 use super::truth::Truth;
 use super::words;
 
@@ -36,10 +36,12 @@ const OPEN: &str = "within the tolerance it is open which rows of";
 const ROUNDING: f64 = 1e-8;
 
 /// The correct results for a drawing.
-#[derive(Clone)]
 pub struct Meant<'a> {
+    posed: &'a Posed,
     /// From exact arithmetic.
-    pub truth: &'a Truth<'a>,
+    pub truth: Truth,
+    /// The same as plain data.
+    pub right: Expected,
     /// The size of the drawing (m).
     pub size: f64,
     /// Number of its points, directions and numbers.
@@ -53,7 +55,7 @@ pub struct Meant<'a> {
     /// Reactions under gravity.
     pub reactions: Reactions,
     /// The drawing in double precision.
-    pub doubles: Rc<Doubles>,
+    pub doubles: Doubles,
 }
 
 /// The result of a comparison.
@@ -68,8 +70,9 @@ pub struct Judged {
 impl<'a> Meant<'a> {
     /// The correct results for a drawing.
     #[must_use]
-    pub fn of(truth: &'a Truth<'a>, seed: u64, gravity: [f64; 2]) -> Self {
-        let doubles = Doubles::of(truth.posed);
+    pub fn of(posed: &'a Posed, seed: u64, gravity: [f64; 2]) -> Self {
+        let (truth, right) = posed.right();
+        let doubles = Doubles::of(posed);
         let rank = truth.rank();
         let is_permanent = truth.redundancy() == 0 || doubles.is_permanent(rank, seed);
         let everywhere_from = if is_permanent {
@@ -81,23 +84,16 @@ impl<'a> Meant<'a> {
             doubles.lower_rank_from(rank + 1)
         };
         Self {
+            posed,
             truth,
+            right,
             size: doubles.size,
             blocks: doubles.blocks.len(),
             is_permanent,
             everywhere_from,
             from: doubles.lower_rank_from(rank),
-            reactions: doubles.reactions(truth.posed, rank, gravity),
-            doubles: Rc::new(doubles),
-        }
-    }
-
-    /// The same with another result of exact arithmetic for the drawing.
-    #[must_use]
-    pub fn with<'b>(&'b self, truth: &'b Truth<'b>) -> Meant<'b> {
-        Meant {
-            truth,
-            ..self.clone()
+            reactions: doubles.reactions(posed, rank, gravity),
+            doubles,
         }
     }
 
@@ -105,6 +101,12 @@ impl<'a> Meant<'a> {
     #[must_use]
     pub fn is_far(&self, tolerance: f64) -> bool {
         self.from.low >= FAR * tolerance
+    }
+
+    /// The tolerance for numbers that depend on data within a tolerance (m).
+    fn rounding(&self, tolerance: f64) -> f64 {
+        let known_to = (10.0 * tolerance / self.from.low).min(0.5);
+        self.truth.rounding.max(known_to)
     }
 
     /// Compares a document with the correct results.
@@ -155,13 +157,15 @@ impl<'a> Meant<'a> {
             judged.other_rank = Some("verdicts near a lower rank");
             return judged;
         }
+        let mut truth = self.truth.clone();
+        truth.rounding = self.rounding(tolerance);
         self.verdicts(answer, tolerance, findings);
-        kept_rows(self.truth, answer, findings);
+        kept_rows(&truth, answer, findings);
         let warnings = list(&answer["warnings"]).iter().filter_map(Value::as_str);
         for warning in warnings.filter(|w| w.contains(OPEN)) {
             findings.note(Kind::Undecided, warning.to_owned());
         }
-        words::circuits(self.truth, answer, findings);
+        words::circuits(&truth, answer, findings);
         self.loads(answer, tolerance, findings);
         judged
     }
@@ -170,22 +174,19 @@ impl<'a> Meant<'a> {
     /// data within the tolerance make it so.
     fn verdicts(&self, answer: &Value, tolerance: f64, findings: &mut Findings) {
         let mut all = Findings::default();
-        reactions(self.truth, answer, &mut all);
+        let rounding = self.rounding(tolerance);
+        reactions(&self.right, rounding, answer, &mut all);
         let rank = self.truth.rank();
-        let links = self.truth.posed.links.iter().enumerate();
-        let hidden: Vec<&str> = links
-            .filter(|(link, placed)| {
-                let is_named = |f: &Finding| concerns(&f.text, &placed.link.name);
-                let wrong = |f: &Finding| f.kind.is_wrong() && is_named(f);
-                let rows = self.truth.rows_of(*link);
-                // Accept only reactions that the data may make unique.
-                !self.truth.is_unique(&rows) && all.0.iter().any(wrong) && {
-                    let [size, change] = self.doubles.margin(rank, &rows, tolerance);
-                    size <= change
-                }
-            })
-            .map(|(_, placed)| placed.link.name.as_str())
-            .collect();
+        let hidden = self.right.reactions.iter().filter(|right| {
+            let is_named = |f: &Finding| concerns(&f.text, &right.name);
+            let wrong = |f: &Finding| f.kind.is_wrong() && is_named(f);
+            // Accept only reactions that the data may make unique.
+            !right.is_unique.is_unique() && all.0.iter().any(wrong) && {
+                let [size, change] = self.doubles.margin(rank, &right.own_rows(), tolerance);
+                size <= change
+            }
+        });
+        let hidden: Vec<&str> = hidden.map(|right| right.name.as_str()).collect();
         let is_open = |text: &str| hidden.iter().any(|name| concerns(text, name));
         let kept = all.0.into_iter().filter(|f| !is_open(&f.text));
         findings.0.extend(kept);
@@ -196,7 +197,7 @@ impl<'a> Meant<'a> {
         let Some(chosen) = list(&answer["choices"]).first() else {
             return;
         };
-        for (link, placed) in self.truth.posed.links.iter().enumerate() {
+        for (link, placed) in self.posed.links.iter().enumerate() {
             let name = placed.link.name.as_str();
             let named = |of: &&Value| of["name"] == name;
             let Some(reaction) = list(&answer["reactions"]).iter().find(named) else {
@@ -209,7 +210,8 @@ impl<'a> Meant<'a> {
             if !reaction["no_finite_reaction"].is_null() {
                 continue;
             }
-            if reaction["verdict"] != "unique" || !self.truth.is_unique(&self.truth.rows_of(link)) {
+            let right = self.right.reaction(name);
+            if reaction["verdict"] != "unique" || right.is_none_or(|r| !r.is_unique.is_unique()) {
                 continue;
             }
             // The sensitivity applies to the larger of 1e-4 of the size and the tolerance.
