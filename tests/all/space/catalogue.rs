@@ -5,9 +5,9 @@
 use lab::fuzz::space::pose::{Writing, posed};
 use lab::fuzz::space::text::Precision;
 use lab::fuzz::space::{Drawing, Expected, catalogue, description, scenes};
-use lab::numbers::Numbers;
 use model::{Mechanism, System};
 use solvability::{ReactionVerdict, Verdict, analyse};
+use suite::numbers::Numbers;
 
 /// Rows, rank, redundancy, mobility of everything in the catalogue that no other test counts.
 const COUNTS: [(&str, [usize; 4]); 17] = [

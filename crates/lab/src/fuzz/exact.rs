@@ -54,7 +54,7 @@ pub mod within;
 pub mod words;
 pub mod wrench;
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use drawing::Drawing;
 use families::Family;

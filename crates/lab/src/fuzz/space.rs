@@ -53,7 +53,7 @@ pub mod text;
 pub mod vector;
 pub mod within;
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 pub use crate::fuzz::exact::expected::Expected;
 pub use drawing::Drawing;

@@ -17,8 +17,8 @@ use lab::fuzz::exact::text::Precision;
 use lab::fuzz::exact::truth::Truth;
 use lab::fuzz::exact::within::Meant;
 use lab::fuzz::exact::{scene, text};
-use lab::numbers::Numbers;
 use serde_json::{Value, json};
+use suite::numbers::Numbers;
 
 const SEED: u64 = 1;
 

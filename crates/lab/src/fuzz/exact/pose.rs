@@ -2,7 +2,7 @@
 //! another order, first and second body exchanged, positions in the world or in the frames of
 //! bodies. None of these changes the correct answer.
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use super::drawing::{Drawing, Link, Side, Tie, Vector};
 use super::ratio::{Ratio, Surd};

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use std::panic::{self, AssertUnwindSafe};
 
 use crate::fuzz::space;
-use crate::numbers::Numbers;
 use rayon::prelude::*;
+use suite::numbers::Numbers;
 
 use super::answer;
 use super::doubles::{Doubles, extent};

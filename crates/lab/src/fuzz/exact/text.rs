@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use super::drawing::{Side, Tie, Vector};
 use super::pose::{Placed, Posed};

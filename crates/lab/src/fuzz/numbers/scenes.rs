@@ -12,7 +12,7 @@ use crate::fuzz::exact::text as text_of_plane;
 use crate::fuzz::scenes::Space;
 use crate::fuzz::space::families::Family as OfSpace;
 use crate::fuzz::space::text as text_of_space;
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use carriers::{Carrier, drive_one};
 use pieces::Stand;
