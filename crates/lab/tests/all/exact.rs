@@ -10,9 +10,8 @@ use lab::fuzz::exact::families::Family;
 use lab::fuzz::exact::findings::{Kind, list};
 use lab::fuzz::exact::pose::{Posed, Writing};
 use lab::fuzz::exact::ratio::Ratio;
-use lab::fuzz::exact::rounded::{self, Suite};
-use lab::fuzz::exact::tally;
-use lab::fuzz::exact::tally::Tally;
+use lab::fuzz::exact::rounded;
+use lab::fuzz::exact::tally::{Suite, Tally};
 use lab::fuzz::exact::text::Precision;
 use lab::fuzz::exact::truth::Truth;
 use lab::fuzz::exact::within::Meant;
@@ -27,7 +26,7 @@ const SCENES: u64 = 384;
 
 #[test]
 fn no_answer_contradicts_exact_arithmetic() {
-    let tally = Tally::of(tally::Suite::Plane, SEED, 0, SCENES, || ());
+    let tally = Tally::of(Suite::Plane, SEED, 0, SCENES, || ());
     assert!(tally.passes(), "\n{}", tally.describe());
     assert_eq!(tally.contradicting, [0; 0], "\n{}", tally.describe());
 }
@@ -280,13 +279,19 @@ fn a_changed_document_is_found_out() {
 /// Number of drawings for each of the sets with a tolerance.
 const DRAWINGS: u64 = 40;
 
+/// The results for all scenes of some drawings.
+fn of_drawings(suite: Suite, from: u64, drawings: u64) -> Tally {
+    let ways = suite.ways() as u64;
+    Tally::of(suite, SEED, ways * from, ways * drawings, || ())
+}
+
 /// Degenerate drawings with 3 … 16 digits: no answer contradicts exact arithmetic, and with the
 /// largest number of digits and without a tolerance, nothing is undecided.
 #[test]
 fn with_few_digits_no_answer_is_wrong() {
-    let tally = rounded::Tally::of(Suite::Rounded, SEED, 0, DRAWINGS, || ());
+    let tally = of_drawings(Suite::RoundedInPlane, 0, DRAWINGS);
     assert_eq!(tally.wrong(), 0, "\n{}", tally.describe());
-    let all = tally.by_way[&(rounded::DIGITS.len() - 1)].clone();
+    let all = tally.sum(|_, way| way == rounded::DIGITS.len() - 1);
     assert_eq!(
         (all.right, all.not.len()),
         (40, 0),
@@ -301,7 +306,7 @@ fn with_few_digits_no_answer_is_wrong() {
 #[test]
 fn answers_that_were_wrong_once_are_right() {
     for drawn in [7, 62, 71, 127, 182, 231, 237, 278, 317] {
-        let tally = rounded::Tally::of(Suite::Rounded, SEED, drawn, 1, || ());
+        let tally = of_drawings(Suite::RoundedInPlane, drawn, 1);
         assert_eq!(tally.wrong(), 0, "{drawn}\n{}", tally.describe());
     }
 }
@@ -309,7 +314,7 @@ fn answers_that_were_wrong_once_are_right() {
 /// Drawings of full rank keep it with tolerances below a third of their distance from a lower rank.
 #[test]
 fn no_tolerance_below_a_third_makes_a_row_redundant() {
-    let tally = rounded::Tally::of(Suite::FullRank, SEED, 0, DRAWINGS, || ());
+    let tally = of_drawings(Suite::FullRank, 0, DRAWINGS);
     assert!(tally.passes(), "\n{}", tally.describe());
 }
 

@@ -10,6 +10,7 @@ use super::expected::Expected;
 use super::findings::{Finding, Findings, Kind, list};
 use super::loads::Reactions;
 use super::minimax::Bounds;
+use super::outcome::Judged;
 use super::pose::Posed;
 use super::truth::Truth;
 use super::words;
@@ -56,15 +57,6 @@ pub struct Meant<'a> {
     pub reactions: Reactions,
     /// The drawing in double precision.
     pub doubles: Doubles,
-}
-
-/// The result of a comparison.
-#[derive(Debug, Default)]
-pub struct Judged {
-    /// The findings.
-    pub findings: Findings,
-    /// The reason why verdicts were not compared: another rank is also correct.
-    pub other_rank: Option<&'static str>,
 }
 
 impl<'a> Meant<'a> {

@@ -5,45 +5,45 @@ use serde_json::Value;
 
 use super::drawing::Drawing;
 use super::permanence::elsewhere;
+use super::pose::Writing;
 use super::scene;
 use super::text::text;
 use crate::fuzz::exact::answer::answer;
 use crate::fuzz::exact::examine::ranks_and_reactions;
 use crate::fuzz::exact::expected::Expected;
 use crate::fuzz::exact::findings::Findings;
-use crate::fuzz::exact::outcome::{Outcome, judged};
+use crate::fuzz::exact::outcome::{Judged, Outcome, judged};
 use crate::fuzz::exact::truth::Truth;
 
 /// Tests one scene with all digits of a double.
 #[must_use]
 pub fn outcome(seed: u64, number: u64) -> Outcome {
     let scene = scene(seed, number);
-    let (right, findings, rank) = judge(&scene.drawing);
+    let (right, judged) = judge(&scene.drawing);
     Outcome {
         family: scene.family.name(),
-        writing: scene.writing,
+        way: scene.writing as usize,
         text: text(&scene.drawing),
-        findings,
-        rank,
+        judged,
         truth: right.describe(),
-        redundancy: right.redundancy,
+        is_redundant: right.redundancy > 0,
+        must_be_decided: scene.writing != Writing::Far,
     }
 }
 
-/// The findings for a drawing, and the rank of the answer if it is decided.
+/// The findings for a drawing.
 #[must_use]
-pub fn compared(drawing: &Drawing) -> (Findings, Option<u64>) {
-    let (_, findings, rank) = judge(drawing);
-    (findings, rank)
+pub fn compared(drawing: &Drawing) -> Findings {
+    judge(drawing).1.findings
 }
 
-fn judge(drawing: &Drawing) -> (Expected, Findings, Option<u64>) {
+fn judge(drawing: &Drawing) -> (Expected, Judged) {
     let (truth, right) = drawing.right();
-    let (findings, rank) = judged(
+    let judged = judged(
         || answer(&text(drawing)),
-        |document| compare(&truth, &right, document),
+        |document| Judged::with_rank(compare(&truth, &right, document), document),
     );
-    (right, findings, rank)
+    (right, judged)
 }
 
 impl Drawing {

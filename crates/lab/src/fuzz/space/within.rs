@@ -15,10 +15,10 @@ use crate::fuzz::exact::answer::answer;
 use crate::fuzz::exact::examine::{self, ranks_and_reactions, reactions};
 use crate::fuzz::exact::expected::{Elsewhere, Expected, Verdict};
 use crate::fuzz::exact::findings::Kind;
-use crate::fuzz::exact::outcome::judged;
-use crate::fuzz::exact::rounded::{DIGITS, Outcome};
+use crate::fuzz::exact::outcome::{Judged, Outcome, judged};
+use crate::fuzz::exact::rounded::DIGITS;
 use crate::fuzz::exact::truth::Truth;
-use crate::fuzz::exact::within::{BEYOND_DOUBT, FAR, Judged};
+use crate::fuzz::exact::within::{BEYOND_DOUBT, FAR};
 use crate::fuzz::exact::wrench::Wrench;
 
 /// A row changes by at most so many tolerances: of the two ends of an arm or a direction on each of
@@ -37,33 +37,23 @@ pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
             precision.tolerance = None;
         }
         let known = precision.tolerance.map_or(0.0, |t| meant.known(t));
-        let mut other_rank = None;
-        let (findings, _) = judged(
-            || answer(&text_within(&scene.drawing, &precision)),
-            |document| {
-                let Judged {
-                    findings,
-                    other_rank: other,
-                } = meant.judge(document, precision.tolerance);
-                other_rank = other;
-                findings
-            },
+        let text = text_within(&scene.drawing, &precision);
+        let judged = judged(
+            || answer(&text),
+            |document| meant.judge(document, precision.tolerance),
         );
         Outcome {
             family: scene.family.name(),
             way,
-            text: text_within(&scene.drawing, &precision),
+            text,
             truth: format!(
                 "{}\nσ_r {:.2e}, C known to {known:.1e}, {}",
                 meant.right.describe(),
                 meant.sigma,
                 meant.right.elsewhere.words()
             ),
-            judged: Judged {
-                findings,
-                other_rank,
-            },
-            is_far: meant.sigma >= FAR * known,
+            judged,
+            must_be_decided: meant.sigma >= FAR * known,
             is_redundant: meant.right.redundancy > 0,
         }
     };
