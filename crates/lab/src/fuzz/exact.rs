@@ -17,6 +17,7 @@
 //! | [`examine`] | comparison of the two |
 //! | [`findings`] | the errors in an answer |
 //! | [`words`] | comparison of the sentences |
+//! | [`distance`] | comparison of the rank within a tolerance |
 //! | [`deletions`] | comparison of the rows that may be deleted |
 //! | [`outcome`] | the result for one scene |
 //! | [`tally`] | the suites, and the results for many scenes |
@@ -40,6 +41,7 @@
 
 pub mod answer;
 pub mod deletions;
+pub mod distance;
 pub mod doubles;
 pub mod drawing;
 pub mod examine;

@@ -12,10 +12,10 @@ use lab::fuzz::exact::pose::{Posed, Writing};
 use lab::fuzz::exact::ratio::Ratio;
 use lab::fuzz::exact::rounded;
 use lab::fuzz::exact::tally::{Suite, Tally};
-use lab::fuzz::exact::text::Precision;
 use lab::fuzz::exact::truth::Truth;
 use lab::fuzz::exact::within::Meant;
 use lab::fuzz::exact::{scene, text};
+use lab::fuzz::space::text::Precision;
 use serde_json::{Value, json};
 use suite::numbers::Numbers;
 
@@ -373,15 +373,14 @@ fn a_changed_document_is_found_out_within_a_tolerance() {
         along: at(0, 10),
     };
     let posed = Posed::new(&drawing, Writing::AsDrawn, &mut Numbers::new(SEED));
-    let gravity = [1.0, -10.0];
-    let meant = Meant::of(&posed, SEED, gravity);
+    let meant = Meant::of(&posed, SEED, [1.0, -10.0]);
     assert_eq!((meant.right.rank, meant.right.redundancy), (3, 1));
     assert!(meant.is_permanent);
     let tolerance = 1e-4;
     let precision = Precision {
         digits: Some(6),
         tolerance: Some(tolerance),
-        gravity,
+        gravity: [1.0, -10.0, 0.0],
     };
     let document = answer(&text::text_within(&posed, &precision)).expect("it is a scene");
     let kinds = |document: &Value| {

@@ -4,6 +4,7 @@
 use suite::numbers::Numbers;
 
 use super::answer;
+use super::distance::BEYOND_DOUBT;
 use super::doubles::{Doubles, extent};
 use super::examine::examine;
 use super::families::Family;
@@ -12,9 +13,10 @@ use super::outcome::{Judged, Outcome, judged};
 use super::pose::{Posed, Writing};
 use super::ratio::Ratio;
 use super::tally::Suite;
-use super::text::{Precision, text_within};
-use super::within::{BEYOND_DOUBT, Meant};
+use super::text::text_within;
+use super::within::Meant;
 use crate::fuzz::space;
+use crate::fuzz::space::text::Precision;
 
 /// Numbers of significant digits. With the last one no tolerance is stated.
 pub const DIGITS: [usize; 14] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16];
@@ -23,7 +25,7 @@ pub const DIGITS: [usize; 14] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16
 pub const PARTS: [f64; 6] = [0.99, 0.5, 0.1, 1e-2, 1e-4, 1e-7];
 
 /// Gravity (m/s²), not parallel to an axis.
-const GRAVITY: [f64; 2] = [3.0, -9.0];
+const GRAVITY: [f64; 3] = [3.0, -9.0, 0.0];
 
 /// A drawing in the plane, moved by up to its size and turned.
 fn posed(suite: Suite, seed: u64, drawn: u64) -> (&'static str, Posed) {
@@ -52,8 +54,8 @@ pub fn outcomes(suite: Suite, seed: u64, drawn: u64) -> Vec<Outcome> {
     }
     let (family, posed) = posed(suite, seed, drawn);
     let is_rounded = suite == Suite::RoundedInPlane;
-    let gravity = if is_rounded { GRAVITY } else { [0.0; 2] };
-    let meant = Meant::of(&posed, seed, gravity);
+    let gravity = if is_rounded { GRAVITY } else { [0.0; 3] };
+    let meant = Meant::of(&posed, seed, [gravity[0], gravity[1]]);
     if !is_rounded && meant.right.redundancy > 0 {
         return Vec::new();
     }
@@ -122,7 +124,7 @@ fn outcome(
         ),
         text,
         judged,
-        must_be_decided: is_full_rank || meant.is_far(tolerance),
+        must_be_decided: is_full_rank || meant.distance(tolerance).is_far(),
         is_redundant: meant.right.redundancy > 0,
     }
 }

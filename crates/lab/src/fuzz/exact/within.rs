@@ -3,9 +3,10 @@
 
 use serde_json::Value;
 
+use super::distance::{BEYOND_DOUBT, Distance, Left};
 use super::doubles::Doubles;
 use super::drawing::Tie;
-use super::examine::{kept_rows, reactions};
+use super::examine::{elsewhere, kept_rows, reactions};
 use super::expected::Expected;
 use super::findings::{Finding, Findings, Kind, list};
 use super::loads::Reactions;
@@ -14,13 +15,6 @@ use super::outcome::Judged;
 use super::pose::Posed;
 use super::truth::Truth;
 use super::words;
-
-/// Below τ* divided by this number, a tolerance does not change the rank; above τ* times this
-/// number, it lowers the rank.
-pub const BEYOND_DOUBT: f64 = 3.0;
-
-/// If τ* exceeds the tolerance by this factor, everything must be decided.
-pub const FAR: f64 = 30.0;
 
 /// A reaction depends linearly on the data if the change by all data together is below this
 /// fraction.
@@ -89,10 +83,14 @@ impl<'a> Meant<'a> {
         }
     }
 
-    /// Whether a lower rank is so far away that everything must be decided.
+    /// A tolerance (m) and τ*.
     #[must_use]
-    pub fn is_far(&self, tolerance: f64) -> bool {
-        self.from.low >= FAR * tolerance
+    pub fn distance(&self, tolerance: f64) -> Distance {
+        Distance {
+            tolerance,
+            to_lower_rank: self.from.low,
+            is_permanent: self.is_permanent,
+        }
     }
 
     /// The tolerance for numbers that depend on data within a tolerance (m).
@@ -105,54 +103,26 @@ impl<'a> Meant<'a> {
     #[must_use]
     pub fn judge(&self, answer: &Value, tolerance: f64) -> Judged {
         let mut judged = Judged::default();
+        let rank = self.truth.rank();
+        let left = self.distance(tolerance).judge(rank, answer, &mut judged);
         let findings = &mut judged.findings;
-        if answer["evidence"]["status"] != "decided" {
-            let text = format!("rank {}: {}", answer["rank"], answer["evidence"]["reason"]);
-            findings.note(Kind::Undecided, text);
-            return judged;
-        }
-        let (found_rank, rank) = (
-            answer["rank"].as_u64().unwrap_or(0) as usize,
-            self.truth.rank(),
-        );
-        let from = format!(
-            "tolerance {tolerance:.2e} m, τ* {:.2e} m to {:.2e} m",
-            self.from.low, self.from.high
-        );
-        let grounds = answer["evidence"]["grounds"].as_str().unwrap_or_default();
-        if found_rank < rank {
-            if BEYOND_DOUBT * tolerance < self.from.low {
-                let text = format!("rank: answer {found_rank}, is {rank}; {from}; {grounds}");
-                findings.note(Kind::Rank, text);
-            }
-            judged.other_rank = Some("lower within the tolerance");
-            return judged;
-        }
-        if found_rank > rank {
-            if self.is_permanent {
-                let text = format!("rank: answer {found_rank}, is {rank} at all poses; {from}");
-                findings.note(Kind::Rank, text);
-            }
-            judged.other_rank = Some("singular pose");
-            return judged;
-        }
         let is_wrong = BEYOND_DOUBT * tolerance < self.everywhere_from.low;
-        if is_wrong && grounds == "within_tolerance" {
+        let is_redundant_within = answer["evidence"]["grounds"] == "within_tolerance";
+        if left != Left::Nothing && is_wrong && is_redundant_within {
             let text = format!(
-                "rank: answer {found_rank} within the tolerance, is so at one pose only up to {:.2e} m",
+                "rank: answer {rank} within the tolerance, is so at one pose only up to {:.2e} m",
                 self.everywhere_from.low
             );
             findings.note(Kind::Rank, text);
         }
-        if BEYOND_DOUBT * tolerance >= self.from.low {
-            // Coefficients may vanish within the tolerance.
-            judged.other_rank = Some("verdicts near a lower rank");
+        if left != Left::Verdicts {
             return judged;
         }
         let mut truth = self.truth.clone();
         truth.rounding = self.rounding(tolerance);
         self.verdicts(answer, tolerance, findings);
         kept_rows(&truth, answer, findings);
+        elsewhere(&self.right, answer, findings);
         let warnings = list(&answer["warnings"]).iter().filter_map(Value::as_str);
         for warning in warnings.filter(|w| w.contains(OPEN)) {
             findings.note(Kind::Undecided, warning.to_owned());

@@ -12,13 +12,12 @@ use super::drawing::Drawing;
 use super::text::{Precision, text_within};
 use super::vector::Vector;
 use crate::fuzz::exact::answer::answer;
+use crate::fuzz::exact::distance::{BEYOND_DOUBT, Distance, Left};
 use crate::fuzz::exact::examine::{self, ranks_and_reactions, reactions};
 use crate::fuzz::exact::expected::{Elsewhere, Expected, Verdict};
-use crate::fuzz::exact::findings::Kind;
 use crate::fuzz::exact::outcome::{Judged, Outcome, judged};
 use crate::fuzz::exact::rounded::DIGITS;
 use crate::fuzz::exact::truth::Truth;
-use crate::fuzz::exact::within::{BEYOND_DOUBT, FAR};
 use crate::fuzz::exact::wrench::Wrench;
 
 /// A row changes by at most so many tolerances: of the two ends of an arm or a direction on each of
@@ -53,7 +52,7 @@ pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
                 meant.right.elsewhere.words()
             ),
             judged,
-            must_be_decided: meant.sigma >= FAR * known,
+            must_be_decided: meant.distance(known).is_far(),
             is_redundant: meant.right.redundancy > 0,
         }
     };
@@ -92,45 +91,37 @@ impl Meant {
         CHANGES * (self.truth.rows.len() as f64).sqrt() * tolerance / self.size
     }
 
+    fn distance(&self, known: f64) -> Distance {
+        Distance {
+            tolerance: known,
+            to_lower_rank: self.sigma,
+            is_permanent: self.right.elsewhere == Elsewhere::Same,
+        }
+    }
+
     /// Compares a document with the right results; a tolerance (m) is stated or not.
     #[must_use]
     pub fn judge(&self, document: &serde_json::Value, tolerance: Option<f64>) -> Judged {
-        let known = tolerance.map_or(0.0, |t| self.known(t));
         let mut judged = Judged::default();
-        let findings = &mut judged.findings;
-        if tolerance.is_none() {
-            ranks_and_reactions(&self.truth, &self.right, document, findings);
+        let Some(tolerance) = tolerance else {
+            ranks_and_reactions(&self.truth, &self.right, document, &mut judged.findings);
             return judged;
-        }
-        let rounding = self.truth.rounding.max(BEYOND_DOUBT * known / self.sigma);
-        let rank = self.truth.rank();
-        if document["evidence"]["status"] != "decided" {
-            let reason = &document["evidence"]["reason"];
-            findings.note(Kind::Undecided, format!("rank: {reason}"));
-            return judged;
-        }
-        let found = document["rank"].as_u64().unwrap_or(0) as usize;
-        let told = format!("rank: answer {found}, is {rank}");
-        if found < rank {
-            if BEYOND_DOUBT * known < self.sigma {
-                findings.note(Kind::Rank, told);
+        };
+        let (known, rank) = (self.known(tolerance), self.truth.rank());
+        match self.distance(known).judge(rank, document, &mut judged) {
+            Left::Nothing => {}
+            Left::NoVerdict => {
+                if self.right.elsewhere == Elsewhere::Same {
+                    let right = self.right.clone().with(Elsewhere::NotHigher);
+                    examine::elsewhere(&right, document, &mut judged.findings);
+                }
             }
-            judged.other_rank = Some("lower within the tolerance");
-        } else if found > rank {
-            if self.right.elsewhere == Elsewhere::Same {
-                findings.note(Kind::Rank, format!("{told} in every pose"));
+            Left::Verdicts => {
+                let right = self.open(known / self.sigma);
+                let rounding = self.truth.rounding.max(BEYOND_DOUBT * known / self.sigma);
+                reactions(&right, rounding, document, &mut judged.findings);
+                examine::elsewhere(&right, document, &mut judged.findings);
             }
-            judged.other_rank = Some("singular pose");
-        } else if BEYOND_DOUBT * known >= self.sigma {
-            if self.right.elsewhere == Elsewhere::Same {
-                let right = self.right.clone().with(Elsewhere::NotHigher);
-                examine::elsewhere(&right, document, findings);
-            }
-            judged.other_rank = Some("verdicts near a lower rank");
-        } else {
-            let right = self.open(known / self.sigma);
-            reactions(&right, rounding, document, findings);
-            examine::elsewhere(&right, document, findings);
         }
         judged
     }
