@@ -2,7 +2,7 @@
 //! the tests are in `all/`.
 
 pub use lab::mechanisms::{cranks, revolute, robot, rod, sketch};
-pub use lab::numbers;
+pub use suite::numbers;
 
 /// Examples of pages that belong to no library, compiled as doc tests.
 #[cfg(doctest)]

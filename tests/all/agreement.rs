@@ -7,11 +7,11 @@
 use std::ops::ControlFlow;
 
 use dynamics::{MotionError, RowChoice, prepare};
-use lab::numbers::Numbers;
 use model::{Body, ConstraintId, Function, Mechanism, StartOptions, System};
 use pfaff::AssembledScene;
 use pfaff::prelude::*;
 use solvability::{Contradiction, Equations, RowTerms, solution};
+use suite::numbers::Numbers;
 use tests::cranks::driven_parallelogram;
 
 type Vector = [f64; 3];

@@ -4,11 +4,11 @@
 use std::collections::BTreeMap;
 
 use dynamics::{MotionOptions, simulate};
-use lab::generate::{Answer, Free, Kind, Order, n_four_bar};
 use model::{Mechanism, Registry, System};
 use pfaff::Study;
 use pfaff::scene::Scene;
 use solvability::{ReactionVerdict, analyse};
+use suite::generate::{Answer, Free, Kind, Order, n_four_bar};
 
 pub(crate) fn text(order: &Order) -> String {
     let mut out = Vec::new();

@@ -8,10 +8,10 @@ use std::ops::ControlFlow;
 use dynamics::{KeptRowMotion, Method, MotionOptions, simulate};
 use lab::comparators::equations::Equations;
 use lab::comparators::{Drift, MinimumNorm};
-use lab::generate::{Kind, Order};
 use model::{Mechanism, Registry, System};
 use pfaff::{RunOptions, Study};
 use solvability::{Verdict, analyse};
+use suite::generate::{Kind, Order};
 
 use crate::generated_scenes::{angle, read, text};
 

@@ -11,10 +11,10 @@
 
 use std::fmt::Write;
 
-use lab::numbers::Numbers;
 use model::System;
 use pfaff::AssembledScene;
 use pfaff::prelude::*;
+use suite::numbers::Numbers;
 
 /// Number of robots, of places of the world, and of turns of it.
 const ROBOTS: u64 = 10;

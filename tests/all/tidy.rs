@@ -105,7 +105,8 @@ fn nothing_at_run_time_depends_on_the_generator() {
     assert!(stated.all(|l| l.contains("default-features = false")));
 }
 
-/// Tests and references of the product are not part of it.
+/// References of the product are not part of it, and its tests need scenes with known answers, but
+/// not the laboratory, which depends on the product.
 #[test]
 fn the_product_depends_on_no_crate_of_the_laboratory() {
     const LABORATORY: [&str; 3] = ["exact", "lab", "suite"];
@@ -116,6 +117,11 @@ fn the_product_depends_on_no_crate_of_the_laboratory() {
         let uses = dependencies(&name);
         let judges = LABORATORY.iter().find(|judge| uses.contains(**judge));
         assert_eq!(judges, None, "{name} depends on it");
+        let manifest = read(format!("crates/{name}/Cargo.toml"));
+        let tests_by_it = manifest
+            .lines()
+            .any(|l| l.starts_with("lab.") || l.starts_with("lab "));
+        assert!(!tests_by_it || name == "bench", "{name} is tested by it");
     }
 }
 

@@ -12,11 +12,11 @@ use std::error::Error;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use lab::generate::n_four_bar::acceleration;
-use lab::generate::{Kind, Order};
 use pfaff::dynamics::{Method, MotionOptions, simulate};
 use pfaff::model::Registry;
 use pfaff::{RunOptions, Study};
+use suite::generate::n_four_bar::acceleration;
+use suite::generate::{Kind, Order};
 
 const N: usize = 40;
 const T_END: f64 = 20.0;

@@ -8,10 +8,10 @@ use std::error::Error;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use lab::generate::n_four_bar::acceleration;
-use lab::generate::{Kind, Order};
 use pfaff::model::Registry;
 use pfaff::{RunOptions, Study};
+use suite::generate::n_four_bar::acceleration;
+use suite::generate::{Kind, Order};
 
 /// Last time (s), and number of steps of the reference.
 const T_END: f64 = 5.0;

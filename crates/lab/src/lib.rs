@@ -8,9 +8,7 @@
 //! | [`mod@work_precision`] | the comparators in the table of pfaff's methods, and the cases of the suite |
 //! | [`fuzz`] | random, damaged and degenerate scenes, tested for consistency and by exact arithmetic |
 //! | [`stress`] | stiff and extreme cases, each with its known answer |
-//! | [`generate`] | scenes of any size, with their answers |
 //! | [`mechanisms`] | mechanisms that cases and tests use |
-//! | [`numbers`] | seeded numbers, the same on every machine |
 //! | [`command`] | the command `lab` |
 
 #![forbid(unsafe_code)]
@@ -18,8 +16,6 @@
 pub mod command;
 pub mod comparators;
 pub mod fuzz;
-pub mod generate;
 pub mod mechanisms;
-pub mod numbers;
 pub mod stress;
 pub mod work_precision;

@@ -8,9 +8,13 @@
 //! | [`reference`](mod@reference) | named values at instants, and their accuracy |
 //! | `table` | reference values as text |
 //! | [`closed_forms`] | motions with a closed form |
+//! | [`generate`] | scenes of any size, with their answers |
+//! | [`numbers`] | seeded numbers, the same on every machine |
 
 pub mod cases;
 pub mod closed_forms;
+pub mod generate;
+pub mod numbers;
 pub mod reference;
 mod table;
 

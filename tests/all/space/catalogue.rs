@@ -2,13 +2,12 @@
 //! built without files: numbers from textbooks and screws, and every verdict as exact arithmetic on
 //! wrenches has it.
 
-use lab::fuzz::space::expected::AXES;
 use lab::fuzz::space::pose::{Writing, posed};
 use lab::fuzz::space::text::Precision;
 use lab::fuzz::space::{Drawing, Expected, catalogue, description, scenes};
-use lab::numbers::Numbers;
 use model::{Mechanism, System};
 use solvability::{ReactionVerdict, Verdict, analyse};
+use suite::numbers::Numbers;
 
 /// Rows, rank, redundancy, mobility of everything in the catalogue that no other test counts.
 const COUNTS: [(&str, [usize; 4]); 17] = [
@@ -52,11 +51,11 @@ fn judged(what: &str, drawing: &Drawing) -> [usize; 4] {
     for right in &expected.reactions {
         let what = format!("{what}, {}", right.name);
         let verdict = of(&right.name).unwrap_or_else(|| panic!("{what}: no verdict"));
-        assert_eq!(unique(verdict), right.is_unique, "{what}");
-        for (name, is_unique) in AXES.into_iter().zip(right.components) {
+        assert_eq!(unique(verdict), right.is_unique.is_unique(), "{what}");
+        for &(name, is_unique) in right.components() {
             let component = verdict.components.iter().find(|c| c.name == name);
             let found = component.is_none_or(|c| c.judgement.verdict == Verdict::Unique);
-            assert_eq!(found, is_unique, "{what}: {name}, {verdict:?}");
+            assert_eq!(found, is_unique.is_unique(), "{what}: {name}, {verdict:?}");
         }
         let free = right.carried - right.free;
         assert_eq!(

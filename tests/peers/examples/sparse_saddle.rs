@@ -14,7 +14,7 @@ use faer::sparse::linalg::cholesky::factorize_symbolic_cholesky;
 use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Par, Side};
-use lab::generate::{Kind, Order};
+use suite::generate::{Kind, Order};
 use linalg::{SchurSaddle, SchurStructure, SparseMatrix};
 use model::System;
 use pfaff::{RunOptions, Study};

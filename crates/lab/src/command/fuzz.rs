@@ -11,9 +11,8 @@ use pfaff_cli::console::Console;
 use pfaff_cli::input::unreadable;
 use pfaff_cli::output::{Failure, Outcome};
 
-use crate::fuzz::campaign::{Campaign, Tally};
-use crate::fuzz::exact::rounded::{self, Suite};
-use crate::fuzz::exact::tally;
+use crate::fuzz::campaign::{self, Campaign};
+use crate::fuzz::exact::tally::{Suite, Tally};
 use crate::fuzz::scenes::Space;
 use crate::fuzz::watch::Limits;
 use crate::fuzz::{forms, input, numbers, passages, trial};
@@ -66,15 +65,15 @@ pub(super) enum Fuzz {
     Exact {
         /// Which scenes
         #[arg(long, value_enum, default_value_t)]
-        suite: tally::Suite,
+        suite: Suite,
         #[command(flatten)]
         scenes: Scenes,
     },
     /// Tests scenes with 3 … 16 significant digits; exit code 1 if an answer is wrong
     Rounded {
-        /// Which scenes
-        #[arg(long, value_enum, default_value_t)]
-        suite: Suite,
+        /// The space of all scenes
+        #[arg(long = "suite", value_enum, default_value_t)]
+        space: Space,
         #[command(flatten)]
         drawings: Drawings,
     },
@@ -173,14 +172,14 @@ impl Scenes {
         passed(tally.passes())
     }
 
-    fn examine(&self, suite: tally::Suite, console: &Console<'_>) -> Outcome {
+    fn examine(&self, suite: Suite, console: &Console<'_>) -> Outcome {
         let Self { scenes, seed, .. } = *self;
         if let Some(number) = self.show {
-            return console.print(&suite.outcome(seed, number).page());
+            return console.print(&suite.page(seed, number));
         }
         let clock = Instant::now();
         let bar = progress(scenes);
-        let tally = tally::Tally::of(suite, seed, self.from, scenes, || bar.inc(1));
+        let tally = Tally::of(suite, seed, self.from, scenes, || bar.inc(1));
         bar.finish_and_clear();
         let seconds = clock.elapsed().as_secs_f64();
         let head = format!("seed {seed}: {scenes} scenes in {seconds:.1} s\n");
@@ -207,26 +206,22 @@ pub(super) struct Drawings {
     /// Writes one scene with the correct answer and that of the program, then ends
     #[arg(long, value_name = "NUMBER")]
     show: Option<u64>,
+    /// Directory for scenes with a wrong answer, the shortest of each kind
+    #[arg(long, value_name = "DIR")]
+    keep: Option<PathBuf>,
 }
 
 impl Drawings {
     fn examine(&self, suite: Suite, console: &Console<'_>) -> Outcome {
-        if let Some(number) = self.show {
-            let (drawn, way) = (number / suite.ways(), number % suite.ways());
-            let outcomes = rounded::outcomes(suite, self.seed, drawn);
-            let outcome = outcomes.get(way as usize);
-            return console.print(&outcome.map_or_else(String::new, |o| o.page()));
-        }
-        let clock = Instant::now();
-        let scenes = self.drawings * suite.ways();
-        let bar = progress(scenes);
-        let done = || bar.inc(1);
-        let tally = rounded::Tally::of(suite, self.seed, self.from, self.drawings, done);
-        bar.finish_and_clear();
-        let seconds = clock.elapsed().as_secs_f64();
-        let head = format!("seed {}: {scenes} scenes in {seconds:.1} s\n", self.seed);
-        console.print(&(head + &tally.describe()))?;
-        passed(tally.passes())
+        let ways = suite.ways() as u64;
+        let scenes = Scenes {
+            scenes: self.drawings * ways,
+            seed: self.seed,
+            from: self.from * ways,
+            show: self.show,
+            keep: self.keep.clone(),
+        };
+        scenes.examine(suite, console)
     }
 }
 
@@ -301,7 +296,13 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
         }
         Fuzz::Exact { suite, scenes } => scenes.examine(*suite, console),
         Fuzz::Numbers(scenes) => scenes.examine_numbers(console),
-        Fuzz::Rounded { suite, drawings } => drawings.examine(*suite, console),
+        Fuzz::Rounded { space, drawings } => {
+            let suite = match space {
+                Space::Plane => Suite::RoundedInPlane,
+                Space::Space => Suite::RoundedInSpace,
+            };
+            drawings.examine(suite, console)
+        }
         Fuzz::FullRank(drawings) => drawings.examine(Suite::FullRank, console),
         Fuzz::Passages { runs, seed, from } => {
             let clock = Instant::now();
@@ -354,7 +355,7 @@ fn answer(out: &mut impl Write, text: &str) -> io::Result<()> {
 }
 
 /// The tally in words.
-fn describe(tally: &Tally, seed: u64, inputs: u64, seconds: f64) -> String {
+fn describe(tally: &campaign::Tally, seed: u64, inputs: u64, seconds: f64) -> String {
     let mut text = format!(
         "\nseed {seed}: {inputs} inputs in {seconds:.1} s, {:.0} each second\n",
         inputs as f64 / seconds

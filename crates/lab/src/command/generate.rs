@@ -5,11 +5,11 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::generate::{Answer, Generator, Kind, Order};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use pfaff::report::OutputDirectory;
 use serde_json::json;
+use suite::generate::{Answer, Generator, Kind, Order};
 
 use pfaff_cli::console::Console;
 use pfaff_cli::input::LARGEST;

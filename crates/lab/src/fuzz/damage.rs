@@ -2,7 +2,7 @@
 //! and the later stages are tested.
 
 use crate::fuzz::scenes::{EXTREMES, Space};
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// Values of all kinds.
 const VALUES: [&str; 30] = [

@@ -3,9 +3,26 @@
 //! text must be those for the fractions: ranks, verdicts, components, rows, dependencies, and every
 //! sentence.
 //!
-//! The reference shares no code with the program: its rows are lines of force in the coordinates of
-//! the drawing, not derivatives of Φ with respect to the coordinates of bodies, and their ranks
-//! come from elimination of whole numbers.
+//! The reference shares no code with the program: rows are wrenches, written by virtual work from
+//! points and lines of the drawing, not derivatives of Φ with respect to the coordinates of bodies,
+//! and their ranks come from elimination of whole numbers. One oracle examines the mechanisms of
+//! [`space`](crate::fuzz::space) and drawings of the plane, whose rows are lifted into space.
+//!
+//! | module | content |
+//! | --- | --- |
+//! | [`wrench`] | a mechanism as the wrenches of its rows |
+//! | [`truth`] | elimination, and what follows from it |
+//! | [`expected`] | the right answer as plain data |
+//! | [`answer`] | the answer of the program |
+//! | [`examine`] | comparison of the two |
+//! | [`findings`] | the errors in an answer |
+//! | [`words`] | comparison of the sentences |
+//! | [`distance`] | comparison of the rank within a tolerance |
+//! | [`deletions`] | comparison of the rows that may be deleted |
+//! | [`outcome`] | the result for one scene |
+//! | [`tally`] | the suites, and the results for many scenes |
+//!
+//! Of the plane:
 //!
 //! | module | content |
 //! | --- | --- |
@@ -14,46 +31,39 @@
 //! | [`families`] | kinds of degenerate drawings, with similar ones that are not degenerate |
 //! | [`pose`] | how a drawing is written: moved, turned, swapped, in another order |
 //! | [`text`] | the scene as text |
-//! | [`rows`] | its constraint rows as lines of force |
-//! | [`truth`] | the results of exact arithmetic |
-//! | [`answer`] | the answer of the program |
-//! | [`mod@reference`] | what is compared, in the plane and in space |
-//! | [`examine`] | comparison of the two |
-//! | [`findings`] | the errors in an answer |
-//! | [`words`] | comparison of the sentences |
-//! | [`deletions`] | comparison of the rows that may be deleted |
-//! | [`outcome`] | the result for one scene |
-//! | [`tally`] | many scenes |
+//! | [`lift`] | its rows as wrenches in space |
 //! | [`doubles`] | a drawing in double precision, at any configuration and for any data |
 //! | [`minimax`] | the smallest change of data that satisfies equations, between proved bounds |
 //! | [`near`] | the distance of the data from a lower rank, computed with these two |
 //! | [`loads`] | reactions under gravity, in double precision |
 //! | [`within`] | the answers within a tolerance, compared with these |
-//! | [`rounded`] | many scenes with few digits, and many of full rank near a lower one |
+//! | [`rounded`] | scenes with few digits, and scenes of full rank near a lower one |
 
 pub mod answer;
 pub mod deletions;
+pub mod distance;
 pub mod doubles;
 pub mod drawing;
 pub mod examine;
+pub mod expected;
 pub mod families;
 pub mod findings;
+pub mod lift;
 pub mod loads;
 pub mod minimax;
 pub mod near;
 pub mod outcome;
 pub mod pose;
 pub mod ratio;
-pub mod reference;
 pub mod rounded;
-pub mod rows;
 pub mod tally;
 pub mod text;
 pub mod truth;
 pub mod within;
 pub mod words;
+pub mod wrench;
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use drawing::Drawing;
 use families::Family;

@@ -13,7 +13,7 @@ use std::fmt::Write;
 use linalg::Matrix;
 use solvability::{CommonZero, common_zero};
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 use truth::{Truth, all_vanish, has_zero_near, value};
 
 /// A symmetric matrix of whole numbers.

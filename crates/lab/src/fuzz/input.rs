@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use crate::fuzz::damage;
 use crate::fuzz::scenes::{self, Space};

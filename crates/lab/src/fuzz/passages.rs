@@ -14,7 +14,7 @@ use dynamics::{Method, MotionOptions, RowChoice, prepare, simulate};
 use model::{Mechanism, StartOptions};
 
 use crate::mechanisms::cranks::cranks_at;
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// How far from the origin the far ones stand at most (m).
 const FAR: f64 = 1e6;

@@ -9,7 +9,7 @@ mod space;
 mod things;
 mod values;
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use draft::Draft;
 

@@ -7,7 +7,7 @@
 //! ranks come from elimination of whole numbers.
 //!
 //! ```
-//! use lab::fuzz::space::{Drawing, drawing, expected::Expected, text};
+//! use lab::fuzz::space::{Drawing, Expected, text};
 //!
 //! for scene in lab::fuzz::space::scenes(1).take(3) {
 //!     let drawing: &Drawing = &scene.drawing;
@@ -24,8 +24,6 @@
 //! | [`mod@drawing`] | bodies, joints and drives at one configuration |
 //! | [`kind`] | types of joints |
 //! | [`rows`] | constraint rows as screws |
-//! | [`truth`] | elimination, and what follows from it |
-//! | [`expected`] | the right answer as plain data |
 //! | [`catalogue`] | mechanisms whose answer is known by hand |
 //! | [`families`] | random mechanisms with planted redundancy |
 //! | [`relatives`] | the same with a weaker joint or a turned axis |
@@ -40,7 +38,6 @@
 pub mod catalogue;
 pub mod drawing;
 pub mod examine;
-pub mod expected;
 pub mod families;
 pub mod graph;
 pub mod kind;
@@ -53,14 +50,13 @@ pub mod rows;
 #[cfg(test)]
 mod tests;
 pub mod text;
-pub mod truth;
 pub mod vector;
 pub mod within;
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
+pub use crate::fuzz::exact::expected::Expected;
 pub use drawing::Drawing;
-pub use expected::Expected;
 pub use text::description;
 
 use families::Family;

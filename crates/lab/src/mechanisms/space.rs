@@ -7,7 +7,7 @@ use model::{BodyRef, SpatialBody, SpatialDescription};
 use crate::fuzz::space::pose::{Writing, posed};
 use crate::fuzz::space::text::Precision;
 use crate::fuzz::space::{catalogue, description};
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// A tensor with these moments along the axes of the body.
 #[must_use]

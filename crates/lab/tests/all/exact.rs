@@ -5,19 +5,19 @@ use lab::fuzz::exact::answer::answer;
 use lab::fuzz::exact::doubles::Doubles;
 use lab::fuzz::exact::drawing::{Drawing, GROUND, Tie, Vector};
 use lab::fuzz::exact::examine::examine;
+use lab::fuzz::exact::expected::Verdict;
 use lab::fuzz::exact::families::Family;
 use lab::fuzz::exact::findings::{Kind, list};
 use lab::fuzz::exact::pose::{Posed, Writing};
 use lab::fuzz::exact::ratio::Ratio;
-use lab::fuzz::exact::rounded::{self, Suite};
-use lab::fuzz::exact::tally;
-use lab::fuzz::exact::tally::Tally;
-use lab::fuzz::exact::text::Precision;
+use lab::fuzz::exact::rounded;
+use lab::fuzz::exact::tally::{Suite, Tally};
 use lab::fuzz::exact::truth::Truth;
 use lab::fuzz::exact::within::Meant;
 use lab::fuzz::exact::{scene, text};
-use lab::numbers::Numbers;
+use lab::fuzz::space::text::Precision;
 use serde_json::{Value, json};
+use suite::numbers::Numbers;
 
 const SEED: u64 = 1;
 
@@ -26,7 +26,7 @@ const SCENES: u64 = 384;
 
 #[test]
 fn no_answer_contradicts_exact_arithmetic() {
-    let tally = Tally::of(tally::Suite::Plane, SEED, 0, SCENES, || ());
+    let tally = Tally::of(Suite::Plane, SEED, 0, SCENES, || ());
     assert!(tally.passes(), "\n{}", tally.describe());
     assert_eq!(tally.contradicting, [0; 0], "\n{}", tally.describe());
 }
@@ -69,22 +69,16 @@ fn assert_answer(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
     for seed in 0..8 * Writing::ALL.len() as u64 {
         let writing = Writing::ALL[seed as usize % Writing::ALL.len()];
         let posed = Posed::new(drawing, writing, &mut Numbers::new(seed));
-        let truth = Truth::of(&posed);
-        assert_eq!(truth.rank(), rank, "{writing:?}");
-        for (link, placed) in posed.links.iter().enumerate() {
-            let (name, is_unique) = (
-                placed.link.name.as_str(),
-                truth.is_unique(&truth.rows_of(link)),
-            );
-            assert_eq!(
-                is_unique,
-                !not_unique.contains(&name),
-                "{name}, {writing:?}"
-            );
+        let (truth, right) = posed.right();
+        assert_eq!(right.rank, rank, "{writing:?}");
+        for reaction in &right.reactions {
+            let name = reaction.name.as_str();
+            let is_unique = Verdict::from(!not_unique.contains(&name));
+            assert_eq!(reaction.is_unique, is_unique, "{name}, {writing:?}");
         }
         let text = text::text(&posed);
         let document = answer(&text).unwrap_or_else(|e| panic!("{e}\n{text}"));
-        let mut findings = examine(&truth, &document).0;
+        let mut findings = examine(&truth, &right, &document).0;
         // Far from the origin double precision may not be accurate enough for a decision.
         findings.retain(|f| writing != Writing::Far || f.kind.is_wrong());
         assert!(findings.is_empty(), "{writing:?}: {findings:#?}\n{text}");
@@ -195,10 +189,10 @@ fn a_changed_document_is_found_out() {
     let (from, at) = (at(1, 1), at(0, 9));
     drawing.link(&[a, GROUND], Tie::Distance { from, at });
     let posed = Posed::new(&drawing, Writing::AsDrawn, &mut Numbers::new(SEED));
-    let truth = Truth::of(&posed);
+    let (truth, right) = posed.right();
     let document = answer(&text::text(&posed)).expect("it is a scene");
     let kinds = |document: &Value| {
-        let findings = examine(&truth, document).0;
+        let findings = examine(&truth, &right, document).0;
         findings.into_iter().map(|f| f.kind).collect::<Vec<_>>()
     };
     assert_eq!(kinds(&document), []);
@@ -285,13 +279,19 @@ fn a_changed_document_is_found_out() {
 /// Number of drawings for each of the sets with a tolerance.
 const DRAWINGS: u64 = 40;
 
+/// The results for all scenes of some drawings.
+fn of_drawings(suite: Suite, from: u64, drawings: u64) -> Tally {
+    let ways = suite.ways() as u64;
+    Tally::of(suite, SEED, ways * from, ways * drawings, || ())
+}
+
 /// Degenerate drawings with 3 … 16 digits: no answer contradicts exact arithmetic, and with the
 /// largest number of digits and without a tolerance, nothing is undecided.
 #[test]
 fn with_few_digits_no_answer_is_wrong() {
-    let tally = rounded::Tally::of(Suite::Rounded, SEED, 0, DRAWINGS, || ());
+    let tally = of_drawings(Suite::RoundedInPlane, 0, DRAWINGS);
     assert_eq!(tally.wrong(), 0, "\n{}", tally.describe());
-    let all = tally.by_way[&(rounded::DIGITS.len() - 1)].clone();
+    let all = tally.sum(|_, way| way == rounded::DIGITS.len() - 1);
     assert_eq!(
         (all.right, all.not.len()),
         (40, 0),
@@ -306,7 +306,7 @@ fn with_few_digits_no_answer_is_wrong() {
 #[test]
 fn answers_that_were_wrong_once_are_right() {
     for drawn in [7, 62, 71, 127, 182, 231, 237, 278, 317] {
-        let tally = rounded::Tally::of(Suite::Rounded, SEED, drawn, 1, || ());
+        let tally = of_drawings(Suite::RoundedInPlane, drawn, 1);
         assert_eq!(tally.wrong(), 0, "{drawn}\n{}", tally.describe());
     }
 }
@@ -314,7 +314,7 @@ fn answers_that_were_wrong_once_are_right() {
 /// Drawings of full rank keep it with tolerances below a third of their distance from a lower rank.
 #[test]
 fn no_tolerance_below_a_third_makes_a_row_redundant() {
-    let tally = rounded::Tally::of(Suite::FullRank, SEED, 0, DRAWINGS, || ());
+    let tally = of_drawings(Suite::FullRank, 0, DRAWINGS);
     assert!(tally.passes(), "\n{}", tally.describe());
 }
 
@@ -373,16 +373,14 @@ fn a_changed_document_is_found_out_within_a_tolerance() {
         along: at(0, 10),
     };
     let posed = Posed::new(&drawing, Writing::AsDrawn, &mut Numbers::new(SEED));
-    let truth = Truth::of(&posed);
-    assert_eq!((truth.rank(), truth.redundancy()), (3, 1));
-    let gravity = [1.0, -10.0];
-    let meant = Meant::of(&truth, SEED, gravity);
+    let meant = Meant::of(&posed, SEED, [1.0, -10.0]);
+    assert_eq!((meant.right.rank, meant.right.redundancy), (3, 1));
     assert!(meant.is_permanent);
     let tolerance = 1e-4;
     let precision = Precision {
         digits: Some(6),
         tolerance: Some(tolerance),
-        gravity,
+        gravity: [1.0, -10.0, 0.0],
     };
     let document = answer(&text::text_within(&posed, &precision)).expect("it is a scene");
     let kinds = |document: &Value| {

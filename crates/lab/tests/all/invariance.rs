@@ -10,10 +10,10 @@ use lab::fuzz::space::ratio::Ratio;
 use lab::fuzz::space::text::Precision;
 use lab::fuzz::space::vector::{Motion, Rotation, Vector};
 use lab::fuzz::space::{description, scene};
-use lab::numbers::Numbers;
 use pfaff::model::Mechanism;
 use pfaff::solvability::{Verdict, analyse};
 use proptest::prelude::*;
+use suite::numbers::Numbers;
 
 /// Seed of the drawings; proptest chooses their numbers.
 const SEED: u64 = 1_111;

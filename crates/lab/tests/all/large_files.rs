@@ -4,10 +4,10 @@
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
-use lab::generate::{Kind, Order};
 use model::start::{assemble, consistent_velocity};
 use model::{Mechanism, Registry, StartOptions, System, Work};
 use pfaff::scene::{Diagnostic, Scene, Severity};
+use suite::generate::{Kind, Order};
 
 /// Cells of a chain with a hundred thousand revolutes.
 const CELLS: usize = 18_750;

@@ -1,6 +1,7 @@
 //! The laboratory: comparators compared with known motions and with pfaff, scenes of any size, and
 //! the command `lab`.
 
+mod book;
 mod campaign;
 mod exact;
 #[path = "../../../pfaff-cli/tests/contract/folder.rs"]

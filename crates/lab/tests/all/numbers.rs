@@ -11,10 +11,10 @@ use lab::fuzz::numbers::run::{Row, Run, prepared};
 use lab::fuzz::numbers::sets::{elastic, without};
 use lab::fuzz::numbers::tally::Tally;
 use lab::fuzz::numbers::verdicts::{AtState, Judge, OnRun, Product, Word};
-use lab::numbers::Numbers;
 use pfaff::AssembledScene;
 use pfaff::model::{ConstraintId, Mechanism, Registry, System};
 use pfaff::solvability::{AnalysisError, Compliance, analyse};
+use suite::numbers::Numbers;
 
 /// A leaf of 20 kg on two hinges, 1.5 m apart; the mass centre is 0.4 m away from their line.
 const DOOR: &str = r#"

@@ -6,16 +6,16 @@
 //!   `pfaff check` refuses. A block `toml,fragment,NAME.toml` is added to that scene.
 //! - A `console` block has lines `$ COMMAND` with the output below. A line `…` represents any
 //!   lines. Commands are run in sequence, each chapter in its own folder, which contains all scenes
-//!   of the book and the robot. Available are `pfaff` (also after `|`), the laboratory
-//!   (`cargo run -q --release -p lab --`), `ls` and `head -n`.
+//!   of the book and the robot. Available are `pfaff` (also after `|`), `ls`, `head -n`, and the
+//!   scenes that the laboratory generates (`cargo run -q --release -p lab -- generate`); what else
+//!   the laboratory writes is compared by its own tests.
 
 use std::fs;
 use std::path::Path;
 
-use pfaff::model::Registry;
-use pfaff_cli::Stream;
+use suite::generate::Kind;
 
-use super::{Folder, ROBOT, stderr, stdout, with_scene};
+use super::{Folder, ROBOT, generated, stderr, stdout, with_scene};
 
 const BOOK: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/book");
 
@@ -119,7 +119,9 @@ fn every_command_writes_what_the_book_shows() {
         let (_, folder) = folder.as_ref().expect("just made");
         for example in block.text.split("$ ").skip(1) {
             let (command, shown) = example.split_once('\n').expect("a line ends");
-            let written = run(command, &folder.0);
+            let Some(written) = run(command, &folder.0) else {
+                continue;
+            };
             let lines = |text: &str| -> Vec<String> {
                 text.lines().map(|l| l.trim_end().to_owned()).collect()
             };
@@ -151,11 +153,11 @@ fn with_all_scenes(blocks: &[Block], chapter: &Block) -> Folder {
 }
 
 /// The output of a command of a block, errors after the rest. The output of a refused command ends
-/// with the reason.
-fn run(command: &str, folder: &Path) -> String {
+/// with the reason. `None` for one of the laboratory.
+fn run(command: &str, folder: &Path) -> Option<String> {
     let words = words(command);
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    match words.as_slice() {
+    Some(match words.as_slice() {
         ["ls", directory] => {
             let entries = fs::read_dir(folder.join(directory)).expect("a directory");
             let mut names: Vec<String> = entries
@@ -190,32 +192,30 @@ fn run(command: &str, folder: &Path) -> String {
             "--",
             arguments @ ..,
         ] => {
-            let Some(k) = arguments.iter().position(|w| *w == "|") else {
-                return lab_in(folder, arguments);
-            };
-            let (scene, next) = (lab_in(folder, &arguments[..k]), &arguments[k + 2..]);
-            let output = with_scene(next, &scene);
-            stdout(&output) + &stderr(&output)
+            return of_laboratory(arguments, folder);
         }
         other => panic!("no example can run {other:?}"),
-    }
+    })
 }
 
-/// The output of a command of the laboratory whose `--out` is in a folder.
-fn lab_in(folder: &Path, arguments: &[&str]) -> String {
-    let mut words = vec!["lab".to_owned()];
-    for (k, word) in arguments.iter().enumerate() {
-        words.push(if k > 0 && arguments[k - 1] == "--out" {
-            folder.join(word).display().to_string()
-        } else {
-            (*word).to_owned()
-        });
+/// Writes a generated scene, or gives it to a command whose output is returned.
+fn of_laboratory(arguments: &[&str], folder: &Path) -> Option<String> {
+    let ["generate", kind, "--n", n, rest @ ..] = arguments else {
+        return None;
+    };
+    let kind = Kind::ALL.iter().find(|known| known.name() == *kind);
+    let scene = generated(*kind.expect("a family"), n.parse().expect("a number"));
+    match rest {
+        ["--out", file] => {
+            fs::write(folder.join(file), scene).expect("written");
+            None
+        }
+        ["|", "pfaff", next @ ..] => {
+            let output = with_scene(next, &scene);
+            Some(stdout(&output) + &stderr(&output))
+        }
+        other => panic!("no example generates {other:?}"),
     }
-    let (mut out, mut err) = (Vec::new(), Vec::new());
-    let streams = (Stream::plain(&mut out), Stream::plain(&mut err));
-    lab::command::run(&Registry::standard(), words, streams.0, streams.1);
-    let text = String::from_utf8([out, err].concat()).expect("UTF-8");
-    text.replace(&format!("{}/", folder.display()), "")
 }
 
 fn command_in(folder: &Path, arguments: &[&str]) -> std::process::Output {

@@ -1,8 +1,8 @@
 //! Unique reactions that depend on the last digits of the data: every output reports them, and none
 //! reports them for ordinary scenes.
 
-use lab::generate::Kind;
 use std::fs;
+use suite::generate::Kind;
 
 use serde_json::Value;
 

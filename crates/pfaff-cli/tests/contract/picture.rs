@@ -4,8 +4,8 @@ use std::fs;
 use std::io::Cursor;
 use std::process::{Command, Output};
 
-use lab::generate::Kind;
 use serde_json::Value;
+use suite::generate::Kind;
 
 use super::bad_input::PENDULUM;
 use super::{Folder, ROBOT, generated, pfaff, stderr, stdout, with_scene};

@@ -1,7 +1,7 @@
 //! `report.html` of a run: one file, complete, safe, small, and the same for the same input.
 
-use lab::generate::Kind;
 use serde_json::{Value, json};
+use suite::generate::Kind;
 
 use super::bad_input::{PENDULUM, contradiction_at_half_a_second};
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};

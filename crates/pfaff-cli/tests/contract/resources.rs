@@ -2,7 +2,7 @@
 //! more memory than is allowed is refused beforehand.
 
 use super::{Folder, pfaff, stderr, stdout, with_scene};
-use lab::generate::Kind;
+use suite::generate::Kind;
 
 /// Three uncoupled pendulums.
 const APART: &str = r#"

@@ -1,8 +1,8 @@
 //! Every option of `analyze` works for mechanisms of every size, by analysing the parts that it
 //! concerns; a part that is too large is named.
 
-use lab::generate::Kind;
 use serde_json::Value;
+use suite::generate::Kind;
 
 use super::{stderr, stdout, with_scene};
 

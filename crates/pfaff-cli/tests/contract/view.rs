@@ -1,9 +1,9 @@
 //! `pfaff view`: a picture of every example, with names, rows and verdicts.
 
-use lab::generate::Kind;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use suite::generate::Kind;
 
 use serde_json::Value;
 

@@ -55,8 +55,8 @@ fn binomial(n: usize, k: usize) -> Option<usize> {
 
 fn make_unique(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let name = answer["reaction"].as_str().unwrap_or_default();
-    let mut links = truth.posed.links.iter();
-    let Some(link) = links.position(|p| p.link.name == name) else {
+    let mut elements = truth.elements.iter();
+    let Some(element) = elements.find(|e| e.name == name) else {
         findings.note(Kind::Sentence, format!("nobody asked for `{name}`"));
         return;
     };
@@ -65,7 +65,7 @@ fn make_unique(truth: &Truth, answer: &Value, findings: &mut Findings) {
         findings.note(Kind::Undecided, text);
         return;
     }
-    let own = truth.rows_of(link);
+    let own = truth.rows_of(element.owner);
     let works =
         |deleted: &[usize]| truth.keeps_motion(deleted) && truth.is_unique_without(&own, deleted);
     let ways: Vec<Vec<usize>> = list(&answer["ways"])

@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
+use super::expected::{Elsewhere, Expected, ExpectedReaction, Verdict};
 use super::findings::{Findings, Kind, list, rows, share_of_free};
-use super::reference::{Elsewhere, Reference, RightReaction, RightWrench, Verdict};
 use super::truth::Truth;
 use super::{deletions, words};
 
@@ -12,10 +12,10 @@ const ONLY_HERE: &str = "hold at this singular configuration only";
 
 /// Compares a document with the correct results.
 #[must_use]
-pub fn examine(truth: &Truth, answer: &Value) -> Findings {
+pub fn examine(truth: &Truth, right: &Expected, answer: &Value) -> Findings {
     let mut findings = Findings::default();
-    if ranks_and_reactions(truth, answer, &mut findings) {
-        words::examine(truth, answer, &mut findings);
+    if ranks_and_reactions(truth, right, answer, &mut findings) {
+        words::examine(truth, right, answer, &mut findings);
         deletions::examine(truth, answer, &mut findings);
     }
     findings
@@ -23,13 +23,16 @@ pub fn examine(truth: &Truth, answer: &Value) -> Findings {
 
 /// Compares ranks and verdicts, in the plane or in space; returns whether the rank is decided.
 pub fn ranks_and_reactions(
-    right: &impl Reference,
+    truth: &Truth,
+    right: &Expected,
     answer: &Value,
     findings: &mut Findings,
 ) -> bool {
     let is_decided = answer["evidence"]["status"] == "decided";
     if is_decided {
         ranks(right, answer, findings);
+        elsewhere(right, answer, findings);
+        kept_rows(truth, answer, findings);
     } else {
         let reason = &answer["evidence"]["reason"];
         findings.note(
@@ -37,32 +40,33 @@ pub fn ranks_and_reactions(
             format!("rank {}: {reason}", answer["rank"]),
         );
     }
-    reactions(right, answer, findings);
+    reactions(right, truth.rounding, answer, findings);
     is_decided
 }
 
 /// Compares the verdicts of all joints and drives.
-pub fn reactions(right: &impl Reference, answer: &Value, findings: &mut Findings) {
-    for reaction in right.reactions() {
+pub fn reactions(right: &Expected, rounding: f64, answer: &Value, findings: &mut Findings) {
+    for reaction in &right.reactions {
         let mut reactions = list(&answer["reactions"]).iter();
         match reactions.find(|r| r["name"] == reaction.name.as_str()) {
-            Some(told) => of_reaction(&reaction, told, right.rounding(), findings),
+            Some(told) => of_reaction(reaction, told, rounding, findings),
             None => findings.note(Kind::Verdict, format!("{} has no verdict", reaction.name)),
         }
     }
 }
 
-fn ranks(right: &impl Reference, answer: &Value, findings: &mut Findings) {
-    let ranks = right.ranks();
-    let redundancy = ranks.rows - ranks.all;
-    let freedom = ranks.velocities - ranks.all;
-    findings.number(Kind::Rank, "rows", &answer["rows"], ranks.rows);
-    findings.number(Kind::Rank, "rank", &answer["rank"], ranks.all);
-    findings.number(Kind::Rank, "redundancy", &answer["redundancy"], redundancy);
-    findings.number(Kind::Rank, "mobility", &answer["mobility"], freedom);
+fn ranks(right: &Expected, answer: &Value, findings: &mut Findings) {
+    for (key, number) in [
+        ("rows", right.rows),
+        ("rank", right.rank),
+        ("redundancy", right.redundancy),
+        ("mobility", right.mobility),
+    ] {
+        findings.number(Kind::Rank, key, &answer[key], number);
+    }
     for (key, what, rank) in [
-        ("rank_holonomic", "Φq", ranks.holonomic),
-        ("rank_nonholonomic", "Ψ", ranks.nonholonomic),
+        ("rank_holonomic", "Φq", right.rank_holonomic),
+        ("rank_nonholonomic", "Ψ", right.rank_nonholonomic),
     ] {
         let doubt = format!("the rank of {what} alone is undecided");
         let mut warnings = list(&answer["warnings"]).iter();
@@ -72,29 +76,25 @@ fn ranks(right: &impl Reference, answer: &Value, findings: &mut Findings) {
             findings.number(Kind::Rank, key, &answer[key], rank);
         }
     }
-    if let Some([rank, drives]) = ranks.without_drives {
+    if let Some(left) = right.without_drives {
         let without = &answer["without_drives"];
-        let what = "rank without drives";
-        findings.number(Kind::Rank, what, &without["rank"], rank);
-        let what = "redundancy without drives";
-        let left = ranks.rows - drives - rank;
-        findings.number(Kind::Rank, what, &without["redundancy"], left);
+        for (key, number) in [("rank", left.rank), ("redundancy", left.redundancy)] {
+            let what = format!("{key} without drives");
+            findings.number(Kind::Rank, &what, &without[key], number);
+        }
     }
-    elsewhere(right, answer, findings);
-    kept_rows(right, answer, findings);
 }
 
 /// What the answer says of other configurations: no claim is needed, but none may be wrong.
-pub(in crate::fuzz) fn elsewhere(right: &impl Reference, answer: &Value, findings: &mut Findings) {
-    let ranks = right.ranks();
-    let redundancy = (ranks.rows - ranks.all) as u64;
+pub(in crate::fuzz) fn elsewhere(right: &Expected, answer: &Value, findings: &mut Findings) {
+    let redundancy = right.redundancy as u64;
     let told = answer["generic"]["redundancy"].as_u64();
     let permanent = answer["evidence"]["permanent"].as_bool();
     let mut warnings = list(&answer["warnings"]).iter().filter_map(Value::as_str);
     let falls =
         told.is_some_and(|told| told < redundancy) || warnings.any(|w| w.contains(ONLY_HERE));
     let rises = told.is_some_and(|told| told > redundancy);
-    let is_wrong = match right.elsewhere() {
+    let is_wrong = match right.elsewhere {
         Elsewhere::Same => falls || rises || permanent == Some(false),
         Elsewhere::NotHigher => falls,
         Elsewhere::Higher => permanent == Some(true) || told.is_some_and(|told| told >= redundancy),
@@ -103,7 +103,7 @@ pub(in crate::fuzz) fn elsewhere(right: &impl Reference, answer: &Value, finding
     if is_wrong {
         let text = format!(
             "redundancy {redundancy}, {}: answer {}, permanent {}",
-            right.elsewhere().words(),
+            right.elsewhere.words(),
             answer["generic"]["redundancy"],
             answer["evidence"]["permanent"]
         );
@@ -112,19 +112,19 @@ pub(in crate::fuzz) fn elsewhere(right: &impl Reference, answer: &Value, finding
 }
 
 /// The kept rows must be independent, and their number must be the rank.
-pub(super) fn kept_rows(right: &impl Reference, answer: &Value, findings: &mut Findings) {
-    let (kept, rank) = (rows(&answer["kept_rows"]), right.ranks().all);
-    if kept.len() != rank || right.rank_of(&kept) != rank {
+pub(super) fn kept_rows(truth: &Truth, answer: &Value, findings: &mut Findings) {
+    let (kept, rank) = (rows(&answer["kept_rows"]), truth.rank());
+    if kept.len() != rank || truth.rank_of(&kept) != rank {
         let text = format!(
             "the kept rows {} have rank {}",
             answer["kept_rows"],
-            right.rank_of(&kept)
+            truth.rank_of(&kept)
         );
         findings.note(Kind::Rank, text);
     }
 }
 
-fn of_reaction(right: &RightReaction, answer: &Value, rounding: f64, findings: &mut Findings) {
+fn of_reaction(right: &ExpectedReaction, answer: &Value, rounding: f64, findings: &mut Findings) {
     let name = &right.name;
     if rows(&answer["rows"]) != right.own_rows() {
         findings.note(
@@ -148,45 +148,42 @@ fn of_reaction(right: &RightReaction, answer: &Value, rounding: f64, findings: &
     for row in list(&answer["row_verdicts"]) {
         let what = format!("{name}, row {}", row["row"]);
         let told = rows(&json!([row["row"]])).first().copied();
-        match right.rows.iter().find(|(i, _)| Some(*i) == told) {
-            Some((_, is_unique)) => findings.verdict(&what, &row["verdict"], *is_unique),
+        match right.rows.iter().find(|(i, ..)| Some(*i) == told) {
+            Some((.., is_unique)) => findings.verdict(&what, &row["verdict"], *is_unique),
             None => findings.note(Kind::Rank, what),
         }
     }
-    let Some(wrench) = &right.wrench else {
+    if right.wrench.is_none() {
         return;
-    };
+    }
     for component in list(&answer["components"]) {
         let axis = component["name"].as_str().unwrap_or_default();
         let what = format!("{name}.{axis}");
-        match wrench.components.iter().find(|(name, _)| *name == axis) {
+        match right.components().iter().find(|(name, _)| *name == axis) {
             Some((_, is_unique)) => findings.verdict(&what, &component["verdict"], *is_unique),
             None => findings.note(Kind::Verdict, format!("{what} is no component")),
         }
     }
-    directions(name, wrench, answer, rounding, findings);
+    directions(right, answer, rounding, findings);
 }
 
 /// The number of unique directions must be correct, and no solution without loads may have a
 /// component along them.
-fn directions(
-    name: &str,
-    right: &RightWrench,
-    answer: &Value,
-    rounding: f64,
-    findings: &mut Findings,
-) {
+fn directions(right: &ExpectedReaction, answer: &Value, rounding: f64, findings: &mut Findings) {
+    let name = &right.name;
+    let Some(wrench) = right.wrench.as_ref().filter(|wrench| !wrench.is_open) else {
+        return;
+    };
     let directions = list(&answer["unique_directions"]);
     let verdicts = list(&answer["components"]).iter().map(|c| &c["verdict"]);
     if verdicts
         .chain([&answer["verdict"]])
         .any(|v| v == "undecided")
         || answer["unique_directions"].is_null()
-        || right.is_open
     {
         return;
     }
-    let live = right.live;
+    let live = right.carried - right.free;
     if directions.len() != live {
         // No directions are given if their number is uncertain.
         let kind = if directions.is_empty() {
@@ -202,14 +199,14 @@ fn directions(
         return;
     }
     let told = list(&answer["components"]).iter().map(|c| &c["name"]);
-    let place = |name: &Value| right.components.iter().position(|(axis, _)| name == axis);
+    let place = |name: &Value| wrench.components.iter().position(|(axis, _)| name == axis);
     let axes: Vec<usize> = told.filter_map(place).collect();
     let vectors = directions
         .iter()
         .map(|d| list(d).iter().map(|x| x.as_f64().unwrap_or(f64::NAN)));
     let vectors: Vec<Vec<f64>> = vectors.map(Iterator::collect).collect();
     for direction in &vectors {
-        if let Some(share) = share_of_free(&right.free, &axes, direction, rounding) {
+        if let Some(share) = share_of_free(&wrench.free, &axes, direction, rounding) {
             let text = format!(
                 "{name}: direction {direction:?} is not unique: {share:.1e} of a free wrench"
             );

@@ -12,7 +12,7 @@ pub mod slender;
 mod trusses;
 mod wheels;
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use super::drawing::{Drawing, GROUND, Tie};
 use pen::Pen;

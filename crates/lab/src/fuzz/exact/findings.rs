@@ -2,9 +2,7 @@
 
 use serde_json::Value;
 
-use super::pose::Posed;
-use super::reference::Verdict;
-use super::truth::Truth;
+use super::expected::Verdict;
 
 /// The severity of a finding, in ascending order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -104,13 +102,7 @@ const ROUNDING: f64 = 1e-9;
 /// and small angles increase the rounding errors by a factor of up to ten thousand.
 const ROUNDING_PER_METRE: f64 = 1e-12;
 
-/// The tolerance for numbers of dependencies.
-#[must_use]
-pub fn rounding(posed: &Posed) -> f64 {
-    rounding_at(posed.distance()).max(posed.known_to)
-}
-
-/// The same for a scene at a distance (m) from the origin.
+/// The tolerance for numbers of dependencies of a scene at a distance (m) from the origin.
 #[must_use]
 pub fn rounding_at(distance: f64) -> f64 {
     ROUNDING.max(ROUNDING_PER_METRE * distance)
@@ -134,18 +126,6 @@ pub(super) fn rows(value: &Value) -> Vec<usize> {
 
 /// The component of a free wrench along a direction of components, relative to both, if it is
 /// larger than rounding.
-pub(super) fn along_free(
-    truth: &Truth,
-    link: usize,
-    axes: &[usize],
-    direction: &[f64],
-) -> Option<f64> {
-    let free = truth.free_wrenches(link)?.into_iter();
-    let free: Vec<Vec<f64>> = free.map(|w| w.rounded(truth.posed).to_vec()).collect();
-    share_of_free(&free, axes, direction, rounding(truth.posed))
-}
-
-/// The same for free wrenches as numbers.
 pub(super) fn share_of_free(
     free: &[Vec<f64>],
     axes: &[usize],

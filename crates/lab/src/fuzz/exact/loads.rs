@@ -4,8 +4,8 @@
 use pfaff::linalg::{Matrix, small_svd};
 
 use super::doubles::Doubles;
+use super::lift;
 use super::pose::Posed;
-use super::rows;
 
 /// Reactions, and the largest load.
 #[derive(Clone)]
@@ -71,7 +71,7 @@ impl Doubles {
                 .point(p)
                 .map(|x: super::ratio::Surd| x.rounded(posed.stretch))
         };
-        let place = rows::place(&tie.tie).map(world);
+        let place = lift::place(&tie.tie).map(world);
         let moving = |body: usize| {
             let ([x, y], about) = (
                 [on(3 * body), on(3 * body + 1)],

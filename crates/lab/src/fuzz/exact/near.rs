@@ -6,8 +6,8 @@
 //! entries of `Uᵀ·C·V` must vanish at all poses of a path on the kept rows, for one change of the
 //! data that the poses follow, and so must `Uᵀ·Φ`. Gradients are finite differences.
 
-use crate::numbers::Numbers;
 use pfaff::linalg::{Matrix, small_svd};
+use suite::numbers::Numbers;
 
 use super::doubles::Doubles;
 use super::minimax::{Bounds, Equation, least_change};

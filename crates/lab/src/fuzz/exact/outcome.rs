@@ -5,47 +5,57 @@ use std::panic::{self, AssertUnwindSafe};
 use serde_json::Value;
 
 use super::findings::{Findings, Kind};
-use super::pose::Writing;
 
 /// The result for one scene.
 #[derive(Debug)]
 pub struct Outcome {
     /// Its family.
     pub family: &'static str,
-    /// How it is written.
-    pub writing: Writing,
+    /// Its way of writing, its number of digits, or its tolerance, among those of the suite.
+    pub way: usize,
     /// Its text.
     pub text: String,
-    /// The findings.
-    pub findings: Findings,
-    /// The rank that the program gave, if any.
-    pub rank: Option<u64>,
+    /// The comparison of both.
+    pub judged: Judged,
     /// The result of exact arithmetic, in words.
     pub truth: String,
-    /// The redundancy by exact arithmetic.
-    pub redundancy: usize,
+    /// Whether it is redundant by exact arithmetic.
+    pub is_redundant: bool,
+    /// Whether everything must be decided: a scene near the origin, and a lower rank far away.
+    pub must_be_decided: bool,
+}
+
+/// The result of a comparison.
+#[derive(Debug, Default)]
+pub struct Judged {
+    /// The findings.
+    pub findings: Findings,
+    /// The rank that the program gave, if it is decided and there is no other one.
+    pub rank: Option<u64>,
+    /// The reason why verdicts were not compared: another rank is also correct.
+    pub other_rank: Option<&'static str>,
 }
 
 impl Outcome {
     /// The worst finding.
     #[must_use]
     pub fn worst(&self) -> Option<Kind> {
-        self.findings.0.iter().map(|f| f.kind).max()
+        self.judged.findings.0.iter().map(|f| f.kind).max()
     }
 
     /// The scene with the correct answer and that of the program in comments at its beginning.
     #[must_use]
-    pub fn page(&self) -> String {
-        let (family, writing) = (self.family, self.writing.name());
-        let mut page = format!("# {family}, {writing}\n# Exact arithmetic:\n");
+    pub fn page(&self, way: &str) -> String {
+        let mut page = format!("# {}, {way}\n# Exact arithmetic:\n", self.family);
         for line in self.truth.lines() {
             page.push_str(&format!("#   {line}\n"));
         }
-        match self.findings.0.as_slice() {
-            [] => page.push_str("# Every answer is right.\n"),
+        match (&self.judged.findings.0[..], self.judged.other_rank) {
+            ([], None) => page.push_str("# Every answer is right.\n"),
+            ([], Some(why)) => page.push_str(&format!("# Verdicts are not compared: {why}.\n")),
             _ => page.push_str("# Told:\n"),
         }
-        for finding in &self.findings.0 {
+        for finding in &self.judged.findings.0 {
             let (kind, text) = (finding.kind.name(), finding.text.replace('\n', "\n#     "));
             page.push_str(&format!("#   {kind}: {text}\n"));
         }
@@ -53,20 +63,32 @@ impl Outcome {
     }
 }
 
-/// The findings for an answer, also if there is none, and its rank if it is decided.
+/// The comparison of an answer, also if there is none.
 pub fn judged(
     answer: impl FnOnce() -> Result<Value, String>,
-    examine: impl FnOnce(&Value) -> Findings,
-) -> (Findings, Option<u64>) {
-    let mut findings = Findings::default();
+    examine: impl FnOnce(&Value) -> Judged,
+) -> Judged {
+    let refused = |kind: Kind, text: String| {
+        let mut judged = Judged::default();
+        judged.findings.note(kind, text);
+        judged
+    };
     match panic::catch_unwind(AssertUnwindSafe(answer)) {
-        Ok(Ok(document)) => {
-            let is_decided = document["evidence"]["status"] == "decided";
-            let rank = document["rank"].as_u64().filter(|_| is_decided);
-            return (examine(&document), rank);
-        }
-        Ok(Err(refusal)) => findings.note(Kind::Refused, refusal),
-        Err(_) => findings.note(Kind::Panic, "the analysis panicked".to_owned()),
+        Ok(Ok(document)) => examine(&document),
+        Ok(Err(refusal)) => refused(Kind::Refused, refusal),
+        Err(_) => refused(Kind::Panic, "the analysis panicked".to_owned()),
     }
-    (findings, None)
+}
+
+impl Judged {
+    /// The findings for a document in which no other rank is correct.
+    #[must_use]
+    pub fn with_rank(findings: Findings, document: &Value) -> Self {
+        let is_decided = document["evidence"]["status"] == "decided";
+        Self {
+            findings,
+            rank: document["rank"].as_u64().filter(|_| is_decided),
+            other_rank: None,
+        }
+    }
 }

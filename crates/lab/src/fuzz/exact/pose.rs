@@ -2,7 +2,7 @@
 //! another order, first and second body exchanged, positions in the world or in the frames of
 //! bodies. None of these changes the correct answer.
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use super::drawing::{Drawing, Link, Side, Tie, Vector};
 use super::ratio::{Ratio, Surd};
@@ -93,8 +93,6 @@ pub struct Posed {
     pub has_constant_rank: bool,
     /// The seed of the errors, if positions have errors as in [`Drawing`].
     pub careless: Option<u64>,
-    /// Relative accuracy of numbers that depend on the drawing, if it is written with few digits.
-    pub known_to: f64,
 }
 
 impl Posed {
@@ -143,7 +141,6 @@ impl Posed {
             redundancy: drawing.redundancy,
             has_constant_rank: drawing.has_constant_rank,
             careless: drawing.is_careless.then(|| numbers.bits()),
-            known_to: 0.0,
         }
     }
 

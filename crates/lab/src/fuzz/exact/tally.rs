@@ -3,26 +3,30 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
+use std::ops::Range;
 use std::path::Path;
 
 use rayon::prelude::*;
 
 use super::examine::examine;
 use super::findings::Kind;
-use super::outcome::{Outcome, judged};
+use super::outcome::{Judged, Outcome, judged};
 use super::pose::Writing;
-use super::truth::Truth;
-use super::{answer, scene, text};
+use super::{answer, rounded, scene, text};
 use crate::fuzz::space;
 
 /// Number of scenes that are listed for each kind of finding.
-const LISTED: usize = 6;
+const LISTED: usize = 8;
 
 /// Number of scenes of each family, way of writing and kind that are stored as files.
 const KEPT: usize = 2;
 
-/// Near the origin fewer than one scene out of this number may be undecided.
+/// Fewer than one scene out of this number may be undecided where all digits are written.
 const UNDECIDED: usize = 1000;
+
+/// With few digits, at most one scene out of this number may be undecided if a lower rank is far
+/// away.
+const UNDECIDED_WITHIN: usize = 100;
 
 /// The scenes of a campaign.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -34,65 +38,124 @@ pub enum Suite {
     Space,
     /// Scenes of the plane, lifted into space.
     Lifted,
+    /// Degenerate drawings in the plane with few digits.
+    #[value(skip)]
+    RoundedInPlane,
+    /// Mechanisms in space with few digits.
+    #[value(skip)]
+    RoundedInSpace,
+    /// Drawings of full rank near a lower one.
+    #[value(skip)]
+    FullRank,
 }
 
 impl Suite {
     /// Number of ways in which a drawing is written: scenes `n·k` to `n·k + n − 1` are one drawing.
     #[must_use]
-    pub fn ways(self) -> u64 {
-        Writing::ALL.len() as u64
+    pub fn ways(self) -> usize {
+        match self {
+            Self::Plane | Self::Space | Self::Lifted => Writing::ALL.len(),
+            Self::RoundedInPlane | Self::RoundedInSpace => rounded::DIGITS.len(),
+            Self::FullRank => rounded::PARTS.len(),
+        }
     }
 
-    /// Tests one scene of a seed.
+    /// The name of a way.
     #[must_use]
-    pub fn outcome(self, seed: u64, number: u64) -> Outcome {
+    pub fn way(self, way: usize) -> String {
         match self {
-            Self::Plane => in_plane(seed, number),
-            Self::Space => space::examine::outcome(seed, number),
-            Self::Lifted => space::lifted::outcome(seed, number),
+            Self::Plane | Self::Space | Self::Lifted => Writing::ALL[way].name().to_owned(),
+            Self::RoundedInPlane | Self::RoundedInSpace => {
+                format!("{} digits", rounded::DIGITS[way])
+            }
+            Self::FullRank => format!("{} τ*/3", rounded::PARTS[way]),
         }
+    }
+
+    /// Whether scenes that are written in this way state a tolerance.
+    fn has_tolerance(self, way: usize) -> bool {
+        match self {
+            Self::Plane | Self::Space | Self::Lifted => false,
+            Self::RoundedInPlane | Self::RoundedInSpace => way + 1 < rounded::DIGITS.len(),
+            Self::FullRank => true,
+        }
+    }
+
+    /// Tests some scenes of one drawing of a seed, given by their numbers.
+    #[must_use]
+    pub fn outcomes(self, seed: u64, numbers: Range<u64>) -> Vec<Outcome> {
+        let one = match self {
+            Self::Plane => in_plane,
+            Self::Space => space::examine::outcome,
+            Self::Lifted => space::lifted::outcome,
+            _ => {
+                let ways = self.ways() as u64;
+                let drawn = numbers.start / ways;
+                let is_wanted = |o: &Outcome| numbers.contains(&(ways * drawn + o.way as u64));
+                let all = rounded::outcomes(self, seed, drawn).into_iter();
+                return all.filter(is_wanted).collect();
+            }
+        };
+        numbers.map(|number| one(seed, number)).collect()
+    }
+
+    /// The page of one scene; empty if there is no such scene.
+    #[must_use]
+    pub fn page(self, seed: u64, number: u64) -> String {
+        let mut outcomes = self.outcomes(seed, number..number + 1);
+        let outcome = outcomes.pop();
+        outcome.map_or_else(String::new, |o| o.page(&self.way(o.way)))
     }
 }
 
 fn in_plane(seed: u64, number: u64) -> Outcome {
     let scene = scene(seed, number);
-    let truth = Truth::of(&scene.posed);
+    let (truth, right) = scene.posed.right();
     let text = text::text(&scene.posed);
-    let (findings, rank) = judged(
+    let judged = judged(
         || answer::answer(&text),
-        |document| examine(&truth, document),
+        |document| Judged::with_rank(examine(&truth, &right, document), document),
     );
     Outcome {
         family: scene.family.name(),
-        writing: scene.writing,
+        way: scene.writing as usize,
         text,
-        findings,
-        rank,
-        truth: truth.describe(),
-        redundancy: truth.redundancy(),
+        judged,
+        truth: right.describe(),
+        is_redundant: right.redundancy > 0,
+        must_be_decided: scene.writing != Writing::Far,
     }
 }
 
-/// Counts for one family, written in one way.
+/// Counts for one kind of scenes.
 #[derive(Clone, Debug, Default)]
 pub struct Count {
     /// Number of scenes.
     pub scenes: usize,
     /// Scenes that are redundant by exact arithmetic.
     pub redundant: usize,
+    /// Scenes of which everything must be decided.
+    pub to_decide: usize,
     /// Scenes without findings.
     pub right: usize,
-    /// Scenes with findings, by the worst one: their number, and the first of them.
-    pub not: BTreeMap<Kind, (usize, Vec<u64>)>,
+    /// Scenes for which another rank is correct, by reason.
+    pub other: BTreeMap<&'static str, usize>,
+    /// Scenes with findings, by the worst one and whether everything must be decided: their number,
+    /// and the first of them.
+    pub not: BTreeMap<(Kind, bool), (usize, Vec<u64>)>,
 }
 
 impl Count {
-    fn add(&mut self, other: Self) {
+    fn add(&mut self, other: &Self) {
         self.scenes += other.scenes;
         self.redundant += other.redundant;
+        self.to_decide += other.to_decide;
         self.right += other.right;
-        for (kind, (count, first)) in other.not {
-            let own = self.not.entry(kind).or_default();
+        for (why, count) in &other.other {
+            *self.other.entry(why).or_default() += count;
+        }
+        for (kind, (count, first)) in &other.not {
+            let own = self.not.entry(*kind).or_default();
             own.0 += count;
             own.1.extend(first);
             own.1.sort_unstable();
@@ -100,9 +163,41 @@ impl Count {
         }
     }
 
-    fn of(&self, wanted: impl Fn(Kind) -> bool) -> usize {
-        let counts = self.not.iter().filter(|(kind, _)| wanted(**kind));
+    fn of(&self, wanted: impl Fn(Kind, bool) -> bool) -> usize {
+        let counts = self.not.iter();
+        let counts = counts.filter(|((kind, decide), _)| wanted(*kind, *decide));
         counts.map(|(_, (count, _))| count).sum()
+    }
+
+    /// Number of scenes with a wrong answer.
+    #[must_use]
+    pub fn wrong(&self) -> usize {
+        self.of(|kind, _| kind.is_wrong())
+    }
+
+    /// Number of scenes that are undecided or refused, of those that must be decided.
+    #[must_use]
+    pub fn undecided(&self) -> usize {
+        self.of(|kind, must_be_decided| must_be_decided && !kind.is_wrong())
+    }
+
+    fn line(&self, name: &str) -> String {
+        let mut text = format!(
+            "{name:26} {:6} scenes, {:6} redundant, {:6} to decide, {:6} right",
+            self.scenes, self.redundant, self.to_decide, self.right
+        );
+        for (why, n) in &self.other {
+            text.push_str(&format!(", {n} {why}"));
+        }
+        for ((kind, must_be_decided), (n, first)) in &self.not {
+            let may = if *must_be_decided {
+                ""
+            } else {
+                " (where it may be)"
+            };
+            text.push_str(&format!(", {n} {}{may} {first:?}", kind.name()));
+        }
+        text + "\n"
     }
 }
 
@@ -112,7 +207,7 @@ pub struct Tally {
     /// The scenes.
     pub suite: Suite,
     /// By family and way of writing.
-    pub counts: BTreeMap<(&'static str, Writing), Count>,
+    pub counts: BTreeMap<(&'static str, usize), Count>,
     /// Drawings with different ranks for two ways of writing.
     pub contradicting: Vec<u64>,
 }
@@ -121,21 +216,20 @@ impl Tally {
     /// Tests scenes `from..from + scenes` of a seed; `done` is called after each of them.
     #[must_use]
     pub fn of(suite: Suite, seed: u64, from: u64, scenes: u64, done: impl Fn() + Sync) -> Self {
-        let ways = suite.ways();
+        let ways = suite.ways() as u64;
         let empty = || Self {
             suite,
             ..Self::default()
         };
         let drawings: Vec<u64> = (from / ways..(from + scenes).div_ceil(ways)).collect();
         let of_drawing = |&drawing: &u64| {
-            let numbers = (ways * drawing..ways * (drawing + 1))
-                .filter(|n| (from..from + scenes).contains(n));
+            let first = ways * drawing;
+            let numbers = first.max(from)..(first + ways).min(from + scenes);
             let mut tally = empty();
             let mut ranks = Vec::new();
-            for number in numbers {
-                let outcome = suite.outcome(seed, number);
-                ranks.extend(outcome.rank);
-                tally.note(number, &outcome);
+            for outcome in suite.outcomes(seed, numbers) {
+                ranks.extend(outcome.judged.rank);
+                tally.note(first + outcome.way as u64, &outcome);
                 done();
             }
             ranks.dedup();
@@ -151,38 +245,39 @@ impl Tally {
     }
 
     fn note(&mut self, number: u64, outcome: &Outcome) {
-        let key = (outcome.family, outcome.writing);
-        let count = self.counts.entry(key).or_default();
+        let count = self.counts.entry((outcome.family, outcome.way));
+        let count = count.or_default();
         count.scenes += 1;
-        count.redundant += usize::from(outcome.redundancy > 0);
-        match outcome.worst() {
-            Some(worst) => {
-                let own = count.not.entry(worst).or_default();
+        count.redundant += usize::from(outcome.is_redundant);
+        count.to_decide += usize::from(outcome.must_be_decided);
+        match (outcome.worst(), outcome.judged.other_rank) {
+            (Some(worst), _) => {
+                let kind = (worst, outcome.must_be_decided);
+                let own = count.not.entry(kind).or_default();
                 own.0 += 1;
                 own.1.push(number);
             }
-            None => count.right += 1,
+            (None, Some(why)) => *count.other.entry(why).or_default() += 1,
+            (None, None) => count.right += 1,
         }
     }
 
     fn joined(mut self, other: Self) -> Self {
-        for (key, count) in other.counts {
-            self.counts.entry(key).or_default().add(count);
+        for (key, count) in &other.counts {
+            self.counts.entry(*key).or_default().add(count);
         }
         self.contradicting.extend(other.contradicting);
         self
     }
 
-    /// The counts of scenes near the origin, or of those far away.
+    /// The sum of the counts of some families and ways.
     #[must_use]
-    pub fn sum(&self, is_far: bool) -> Count {
+    pub fn sum(&self, wanted: impl Fn(&str, usize) -> bool) -> Count {
         let mut sum = Count::default();
-        let own = self
-            .counts
-            .iter()
-            .filter(|((_, w), _)| (*w == Writing::Far) == is_far);
-        for (_, count) in own {
-            sum.add(count.clone());
+        for ((family, way), count) in &self.counts {
+            if wanted(family, *way) {
+                sum.add(count);
+            }
         }
         sum
     }
@@ -190,24 +285,17 @@ impl Tally {
     /// Number of scenes with a wrong answer.
     #[must_use]
     pub fn wrong(&self) -> usize {
-        [true, false]
-            .map(|far| self.sum(far).of(Kind::is_wrong))
-            .iter()
-            .sum()
+        self.sum(|_, _| true).wrong()
     }
 
-    /// Number of scenes near the origin with an undecided answer.
-    #[must_use]
-    pub fn undecided_near(&self) -> usize {
-        self.sum(false).of(|kind| !kind.is_wrong())
-    }
-
-    /// Whether no answer is wrong, and fewer than one scene in a thousand near the origin is
-    /// undecided.
+    /// Whether no answer is wrong, and few are undecided that should be decided.
     #[must_use]
     pub fn passes(&self) -> bool {
-        let near = self.sum(false);
-        self.wrong() == 0 && UNDECIDED * self.undecided_near() < near.scenes
+        let [all_digits, within] =
+            [false, true].map(|has| self.sum(|_, way| self.suite.has_tolerance(way) == has));
+        let open = all_digits.undecided();
+        let few = open == 0 || UNDECIDED * open < all_digits.to_decide;
+        self.wrong() == 0 && few && UNDECIDED_WITHIN * within.undecided() <= within.to_decide
     }
 
     /// Writes the listed scenes with their answers into a directory, the shortest ones of each
@@ -217,20 +305,15 @@ impl Tally {
     /// If they cannot be written.
     pub fn keep(&self, seed: u64, folder: &Path) -> io::Result<()> {
         fs::create_dir_all(folder)?;
-        for ((family, writing), count) in &self.counts {
-            for (kind, (_, first)) in &count.not {
-                let pages = first
-                    .iter()
-                    .map(|&n| (n, self.suite.outcome(seed, n).page()));
+        for ((family, way), count) in &self.counts {
+            for ((kind, _), (_, first)) in &count.not {
+                let pages = first.iter().map(|&n| (n, self.suite.page(seed, n)));
                 let mut pages: Vec<(u64, String)> = pages.collect();
                 pages.sort_by_key(|(_, page)| page.len());
                 for (number, page) in pages.into_iter().take(KEPT) {
-                    let name = format!(
-                        "{family}--{}--{}--{seed}-{number}.toml",
-                        kind.name(),
-                        writing.name()
-                    );
-                    fs::write(folder.join(name.replace(' ', "-")), page)?;
+                    let (kind, way) = (kind.name(), self.suite.way(*way));
+                    let name = format!("{family}--{kind}--{way}--{seed}-{number}.toml");
+                    fs::write(folder.join(name.replace([' ', '/', '*'], "-")), page)?;
                 }
             }
         }
@@ -241,32 +324,23 @@ impl Tally {
     #[must_use]
     pub fn describe(&self) -> String {
         let mut text = String::new();
-        for ((family, writing), count) in &self.counts {
-            text.push_str(&format!(
-                "{:26}{:10} {:5} scenes, {:5} redundant, {:5} right",
-                family,
-                writing.name(),
-                count.scenes,
-                count.redundant,
-                count.right
-            ));
-            for (kind, (n, first)) in &count.not {
-                text.push_str(&format!(", {n} {} {first:?}", kind.name()));
-            }
-            text.push('\n');
+        for way in 0..self.suite.ways() {
+            let own = self.sum(|_, other| other == way);
+            text.push_str(&own.line(&self.suite.way(way)));
         }
-        for (far, name) in [(false, "near"), (true, "far")] {
-            let sum = self.sum(far);
-            text.push_str(&format!(
-                "{name}: {} scenes, {} right, {} undecided or refused, {} wrong\n",
-                sum.scenes,
-                sum.right,
-                sum.of(|kind| !kind.is_wrong()),
-                sum.of(Kind::is_wrong)
-            ));
+        let mut families: Vec<&str> = self.counts.keys().map(|(family, _)| *family).collect();
+        families.dedup();
+        for family in families {
+            text.push_str(&self.sum(|other, _| other == family).line(family));
         }
+        let all = self.sum(|_, _| true);
+        text.push_str(&all.line("all"));
         text.push_str(&format!(
-            "{} drawings with ranks that contradict each other\n",
+            "{} wrong; {} undecided or refused of {} that have to be decided\n\
+             {} drawings with ranks that contradict each other\n",
+            all.wrong(),
+            all.undecided(),
+            all.to_decide,
             self.contradicting.len()
         ));
         text

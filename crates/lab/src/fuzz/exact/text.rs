@@ -2,36 +2,12 @@
 
 use std::fmt::Write;
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use super::drawing::{Side, Tie, Vector};
 use super::pose::{Placed, Posed};
 use super::ratio::{Ratio, Surd};
-
-/// The number of digits, and the data that the scene states in addition to the drawing.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Precision {
-    /// Significant digits. `None`: all digits of a double.
-    pub digits: Option<usize>,
-    /// The tolerance that the scene states (m).
-    pub tolerance: Option<f64>,
-    /// Acceleration of gravity (m/s²).
-    pub gravity: [f64; 2],
-}
-
-impl Precision {
-    /// A number with these digits.
-    #[must_use]
-    pub fn rounded(&self, x: f64) -> f64 {
-        match self.digits {
-            Some(digits) => {
-                let decimal = format!("{x:.*e}", digits.saturating_sub(1));
-                decimal.parse().unwrap_or(x)
-            }
-            None => x,
-        }
-    }
-}
+use crate::fuzz::space::text::Precision;
 
 /// The scene as text.
 #[must_use]
@@ -46,8 +22,9 @@ pub fn text_within(posed: &Posed, precision: &Precision) -> String {
     if let Some(tolerance) = precision.tolerance {
         scene.push_str(&format!(", tolerance = {tolerance:?}"));
     }
-    if precision.gravity != [0.0; 2] {
-        scene.push_str(&format!(", gravity = {:?}", precision.gravity));
+    let [x, y, _] = precision.gravity;
+    if [x, y] != [0.0; 2] {
+        scene.push_str(&format!(", gravity = [{x:?}, {y:?}]"));
     }
     let mut pen = Pen {
         posed,

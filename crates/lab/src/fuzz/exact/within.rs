@@ -1,25 +1,20 @@
 //! The answer of the program for a drawing whose numbers have a tolerance, compared with exact
 //! arithmetic and with the distance of the data from a lower rank.
 
-use std::rc::Rc;
-
 use serde_json::Value;
 
+use super::distance::{BEYOND_DOUBT, Distance, Left};
 use super::doubles::Doubles;
 use super::drawing::Tie;
-use super::examine::{kept_rows, reactions};
+use super::examine::{elsewhere, kept_rows, reactions};
+use super::expected::Expected;
 use super::findings::{Finding, Findings, Kind, list};
 use super::loads::Reactions;
 use super::minimax::Bounds;
+use super::outcome::Judged;
+use super::pose::Posed;
 use super::truth::Truth;
 use super::words;
-
-/// Below τ* divided by this number, a tolerance does not change the rank; above τ* times this
-/// number, it lowers the rank.
-pub const BEYOND_DOUBT: f64 = 3.0;
-
-/// If τ* exceeds the tolerance by this factor, everything must be decided.
-pub const FAR: f64 = 30.0;
 
 /// A reaction depends linearly on the data if the change by all data together is below this
 /// fraction.
@@ -36,10 +31,12 @@ const OPEN: &str = "within the tolerance it is open which rows of";
 const ROUNDING: f64 = 1e-8;
 
 /// The correct results for a drawing.
-#[derive(Clone)]
 pub struct Meant<'a> {
+    posed: &'a Posed,
     /// From exact arithmetic.
-    pub truth: &'a Truth<'a>,
+    pub truth: Truth,
+    /// The same as plain data.
+    pub right: Expected,
     /// The size of the drawing (m).
     pub size: f64,
     /// Number of its points, directions and numbers.
@@ -53,23 +50,15 @@ pub struct Meant<'a> {
     /// Reactions under gravity.
     pub reactions: Reactions,
     /// The drawing in double precision.
-    pub doubles: Rc<Doubles>,
-}
-
-/// The result of a comparison.
-#[derive(Debug, Default)]
-pub struct Judged {
-    /// The findings.
-    pub findings: Findings,
-    /// The reason why verdicts were not compared: another rank is also correct.
-    pub other_rank: Option<&'static str>,
+    pub doubles: Doubles,
 }
 
 impl<'a> Meant<'a> {
     /// The correct results for a drawing.
     #[must_use]
-    pub fn of(truth: &'a Truth<'a>, seed: u64, gravity: [f64; 2]) -> Self {
-        let doubles = Doubles::of(truth.posed);
+    pub fn of(posed: &'a Posed, seed: u64, gravity: [f64; 2]) -> Self {
+        let (truth, right) = posed.right();
+        let doubles = Doubles::of(posed);
         let rank = truth.rank();
         let is_permanent = truth.redundancy() == 0 || doubles.is_permanent(rank, seed);
         let everywhere_from = if is_permanent {
@@ -81,87 +70,64 @@ impl<'a> Meant<'a> {
             doubles.lower_rank_from(rank + 1)
         };
         Self {
+            posed,
             truth,
+            right,
             size: doubles.size,
             blocks: doubles.blocks.len(),
             is_permanent,
             everywhere_from,
             from: doubles.lower_rank_from(rank),
-            reactions: doubles.reactions(truth.posed, rank, gravity),
-            doubles: Rc::new(doubles),
+            reactions: doubles.reactions(posed, rank, gravity),
+            doubles,
         }
     }
 
-    /// The same with another result of exact arithmetic for the drawing.
+    /// A tolerance (m) and τ*.
     #[must_use]
-    pub fn with<'b>(&'b self, truth: &'b Truth<'b>) -> Meant<'b> {
-        Meant {
-            truth,
-            ..self.clone()
+    pub fn distance(&self, tolerance: f64) -> Distance {
+        Distance {
+            tolerance,
+            to_lower_rank: self.from.low,
+            is_permanent: self.is_permanent,
         }
     }
 
-    /// Whether a lower rank is so far away that everything must be decided.
-    #[must_use]
-    pub fn is_far(&self, tolerance: f64) -> bool {
-        self.from.low >= FAR * tolerance
+    /// The tolerance for numbers that depend on data within a tolerance (m).
+    fn rounding(&self, tolerance: f64) -> f64 {
+        let known_to = (10.0 * tolerance / self.from.low).min(0.5);
+        self.truth.rounding.max(known_to)
     }
 
     /// Compares a document with the correct results.
     #[must_use]
     pub fn judge(&self, answer: &Value, tolerance: f64) -> Judged {
         let mut judged = Judged::default();
+        let rank = self.truth.rank();
+        let left = self.distance(tolerance).judge(rank, answer, &mut judged);
         let findings = &mut judged.findings;
-        if answer["evidence"]["status"] != "decided" {
-            let text = format!("rank {}: {}", answer["rank"], answer["evidence"]["reason"]);
-            findings.note(Kind::Undecided, text);
-            return judged;
-        }
-        let (found_rank, rank) = (
-            answer["rank"].as_u64().unwrap_or(0) as usize,
-            self.truth.rank(),
-        );
-        let from = format!(
-            "tolerance {tolerance:.2e} m, τ* {:.2e} m to {:.2e} m",
-            self.from.low, self.from.high
-        );
-        let grounds = answer["evidence"]["grounds"].as_str().unwrap_or_default();
-        if found_rank < rank {
-            if BEYOND_DOUBT * tolerance < self.from.low {
-                let text = format!("rank: answer {found_rank}, is {rank}; {from}; {grounds}");
-                findings.note(Kind::Rank, text);
-            }
-            judged.other_rank = Some("lower within the tolerance");
-            return judged;
-        }
-        if found_rank > rank {
-            if self.is_permanent {
-                let text = format!("rank: answer {found_rank}, is {rank} at all poses; {from}");
-                findings.note(Kind::Rank, text);
-            }
-            judged.other_rank = Some("singular pose");
-            return judged;
-        }
         let is_wrong = BEYOND_DOUBT * tolerance < self.everywhere_from.low;
-        if is_wrong && grounds == "within_tolerance" {
+        let is_redundant_within = answer["evidence"]["grounds"] == "within_tolerance";
+        if left != Left::Nothing && is_wrong && is_redundant_within {
             let text = format!(
-                "rank: answer {found_rank} within the tolerance, is so at one pose only up to {:.2e} m",
+                "rank: answer {rank} within the tolerance, is so at one pose only up to {:.2e} m",
                 self.everywhere_from.low
             );
             findings.note(Kind::Rank, text);
         }
-        if BEYOND_DOUBT * tolerance >= self.from.low {
-            // Coefficients may vanish within the tolerance.
-            judged.other_rank = Some("verdicts near a lower rank");
+        if left != Left::Verdicts {
             return judged;
         }
+        let mut truth = self.truth.clone();
+        truth.rounding = self.rounding(tolerance);
         self.verdicts(answer, tolerance, findings);
-        kept_rows(self.truth, answer, findings);
+        kept_rows(&truth, answer, findings);
+        elsewhere(&self.right, answer, findings);
         let warnings = list(&answer["warnings"]).iter().filter_map(Value::as_str);
         for warning in warnings.filter(|w| w.contains(OPEN)) {
             findings.note(Kind::Undecided, warning.to_owned());
         }
-        words::circuits(self.truth, answer, findings);
+        words::circuits(&truth, answer, findings);
         self.loads(answer, tolerance, findings);
         judged
     }
@@ -170,22 +136,19 @@ impl<'a> Meant<'a> {
     /// data within the tolerance make it so.
     fn verdicts(&self, answer: &Value, tolerance: f64, findings: &mut Findings) {
         let mut all = Findings::default();
-        reactions(self.truth, answer, &mut all);
+        let rounding = self.rounding(tolerance);
+        reactions(&self.right, rounding, answer, &mut all);
         let rank = self.truth.rank();
-        let links = self.truth.posed.links.iter().enumerate();
-        let hidden: Vec<&str> = links
-            .filter(|(link, placed)| {
-                let is_named = |f: &Finding| concerns(&f.text, &placed.link.name);
-                let wrong = |f: &Finding| f.kind.is_wrong() && is_named(f);
-                let rows = self.truth.rows_of(*link);
-                // Accept only reactions that the data may make unique.
-                !self.truth.is_unique(&rows) && all.0.iter().any(wrong) && {
-                    let [size, change] = self.doubles.margin(rank, &rows, tolerance);
-                    size <= change
-                }
-            })
-            .map(|(_, placed)| placed.link.name.as_str())
-            .collect();
+        let hidden = self.right.reactions.iter().filter(|right| {
+            let is_named = |f: &Finding| concerns(&f.text, &right.name);
+            let wrong = |f: &Finding| f.kind.is_wrong() && is_named(f);
+            // Accept only reactions that the data may make unique.
+            !right.is_unique.is_unique() && all.0.iter().any(wrong) && {
+                let [size, change] = self.doubles.margin(rank, &right.own_rows(), tolerance);
+                size <= change
+            }
+        });
+        let hidden: Vec<&str> = hidden.map(|right| right.name.as_str()).collect();
         let is_open = |text: &str| hidden.iter().any(|name| concerns(text, name));
         let kept = all.0.into_iter().filter(|f| !is_open(&f.text));
         findings.0.extend(kept);
@@ -196,7 +159,7 @@ impl<'a> Meant<'a> {
         let Some(chosen) = list(&answer["choices"]).first() else {
             return;
         };
-        for (link, placed) in self.truth.posed.links.iter().enumerate() {
+        for (link, placed) in self.posed.links.iter().enumerate() {
             let name = placed.link.name.as_str();
             let named = |of: &&Value| of["name"] == name;
             let Some(reaction) = list(&answer["reactions"]).iter().find(named) else {
@@ -209,7 +172,8 @@ impl<'a> Meant<'a> {
             if !reaction["no_finite_reaction"].is_null() {
                 continue;
             }
-            if reaction["verdict"] != "unique" || !self.truth.is_unique(&self.truth.rows_of(link)) {
+            let right = self.right.reaction(name);
+            if reaction["verdict"] != "unique" || right.is_none_or(|r| !r.is_unique.is_unique()) {
                 continue;
             }
             // The sensitivity applies to the larger of 1e-4 of the size and the tolerance.

@@ -5,15 +5,17 @@
 use num_bigint::BigInt;
 use serde_json::Value;
 
-use super::findings::{Findings, Kind, along_free, list, rounding, rows};
+use super::expected::{Expected, ExpectedReaction};
+use super::findings::{Findings, Kind, list, rows, share_of_free};
 use super::text;
-use super::truth::Truth;
+use super::truth::{Reaction, Truth, largest};
+use super::wrench::Owner;
 
 /// Numbers in sentences have four digits.
 const FOUR_DIGITS: f64 = 6e-4;
 
 /// Compares all dependencies and sentences of a decided document.
-pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
+pub fn examine(truth: &Truth, right: &Expected, answer: &Value, findings: &mut Findings) {
     let redundancy = truth.redundancy();
     let dependencies = list(&answer["dependencies"]);
     if dependencies.len() != redundancy {
@@ -45,13 +47,12 @@ pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
         }
     }
     mixing(truth, answer, findings);
-    for (link, placed) in truth.posed.links.iter().enumerate() {
-        let name = placed.link.name.as_str();
+    for right in &right.reactions {
         let mut reactions = list(&answer["reactions"]).iter();
-        if let Some(reaction) = reactions.find(|r| r["name"] == name)
+        if let Some(reaction) = reactions.find(|r| r["name"] == right.name.as_str())
             && let Some(text) = reaction["explanation"].as_str()
         {
-            explanation(truth, link, reaction, text, findings);
+            explanation(truth, right, reaction, text, findings);
         }
     }
 }
@@ -83,7 +84,7 @@ pub fn circuits(truth: &Truth, answer: &Value, findings: &mut Findings) {
 
 /// A correct dependency.
 struct Dependency<'a> {
-    truth: &'a Truth<'a>,
+    truth: &'a Truth,
     place: usize,
     rows: &'a [usize],
     circuit: &'a [BigInt],
@@ -108,53 +109,69 @@ impl Dependency<'_> {
     fn coefficients(&self, findings: &mut Findings) {
         let answer = list(&self.answer["coefficients"]).iter();
         let answer: Vec<f64> = answer.map(|x| x.as_f64().unwrap_or(f64::NAN)).collect();
-        if !are_proportional(&answer, &self.right(), rounding(self.truth.posed)) {
+        if !are_proportional(&answer, &self.right(), self.truth.rounding) {
             let text = format!("coefficients {answer:?} are {:?}", self.right());
             self.note(findings, text);
         }
     }
 
-    /// The indices of its joints in the file, each once.
-    fn links(&self) -> Vec<usize> {
-        let mut links: Vec<usize> = self.rows.iter().map(|&i| self.truth.rows[i].link).collect();
-        links.sort_unstable();
-        links.dedup();
-        links
+    /// Its joints and drives, each once, in the order of the file.
+    fn owners(&self) -> Vec<Owner> {
+        let owners = self.truth.elements.iter().map(|e| e.owner);
+        let has = |owner: &Owner| {
+            self.rows
+                .iter()
+                .any(|&i| self.truth.rows[i].owner == *owner)
+        };
+        owners.filter(has).collect()
+    }
+
+    fn name(&self, owner: Owner) -> &str {
+        &self.truth.element(owner).name
+    }
+
+    /// What a joint carries, if its place is in the drawing.
+    fn carried(&self, owner: Owner) -> Option<Reaction> {
+        self.truth.carried(owner, self.rows, self.circuit)
+    }
+
+    fn rounded(&self, carried: &Reaction) -> Vec<f64> {
+        self.truth.rounded(carried, &largest(self.circuit))
     }
 
     /// Compares the forces of its joints, which may be drawn in a picture.
     fn forces(&self, document: &Value, findings: &mut Findings) {
         let (mut answer, mut right) = (Vec::new(), Vec::new());
-        for link in self.links() {
-            let placed = &self.truth.posed.links[link];
+        for owner in self.owners() {
+            let name = self.name(owner);
             let mut reactions = list(&document["reactions"]).iter();
-            let reaction = reactions.find(|r| r["name"] == placed.link.name.as_str());
+            let reaction = reactions.find(|r| r["name"] == name);
             let directions = reaction.map_or(&[][..], |r| list(&r["free_directions"]));
             let mut own = directions.iter();
             let Some(found) = own.find(|d| d["dependency"] == self.place) else {
-                let text = format!("`{}` is not answer what it carries", placed.link.name);
+                let text = format!("`{name}` is not answer what it carries");
                 self.load(findings, text);
                 return;
             };
             let number = |x: &Value| x.as_f64().unwrap_or(f64::NAN);
-            let Some(carried) = self.truth.carried(link, self.rows, self.circuit) else {
+            let Some(carried) = self.carried(owner) else {
                 continue;
             };
             let numbers = [&found["force"][0], &found["force"][1], &found["torque"]].map(number);
-            for (axis, answer) in ["Fx", "Fy", "T"].iter().zip(numbers) {
-                if answer != 0.0 && carried.is_zero(axis, self.truth.posed) {
-                    let text = format!(
-                        "`{}`.{axis} is answer as {answer:e}, is zero",
-                        placed.link.name
+            for (k, answer) in numbers.into_iter().enumerate() {
+                if answer != 0.0 && self.truth.is_zero(&carried, k) {
+                    let axis = self.truth.components[k].name;
+                    self.load(
+                        findings,
+                        format!("`{name}`.{axis} is answer as {answer:e}, is zero"),
                     );
-                    self.load(findings, text);
                 }
             }
             answer.extend(numbers);
-            right.extend(carried.rounded(self.truth.posed));
+            right.extend(self.rounded(&carried));
         }
         // Moments are rounded relative to the forces times the arms of the scene.
-        if !are_proportional(&answer, &right, 1e2 * rounding(self.truth.posed)) {
+        if !are_proportional(&answer, &right, 1e2 * self.truth.rounding) {
             self.load(
                 findings,
                 format!("forces {answer:?} are {right:?} but for a factor"),
@@ -164,21 +181,20 @@ impl Dependency<'_> {
 
     fn sentence(&self, findings: &mut Findings) {
         let text = self.answer["text"].as_str().unwrap_or_default();
-        let links = self.links();
-        let name = |link: &usize| self.truth.posed.links[*link].link.name.clone();
-        let joints: Vec<String> = links.iter().map(name).collect();
+        let owners = self.owners();
+        let joints: Vec<&str> = owners.iter().map(|&owner| self.name(owner)).collect();
         let mut named = list(&self.answer["joints"])
             .iter()
             .filter_map(Value::as_str);
-        if joints.len() != named.clone().count() || !named.all(|n| joints.iter().any(|j| j == n)) {
+        if joints.len() != named.clone().count() || !named.all(|n| joints.contains(&n)) {
             self.note(
                 findings,
                 format!("joints {} are {joints:?}", self.answer["joints"]),
             );
         }
-        let sides = links
+        let sides = owners
             .iter()
-            .flat_map(|&l| &self.truth.posed.links[l].link.sides);
+            .flat_map(|&owner| &self.truth.element(owner).sides);
         let bodies: Vec<String> = sides.map(|side| text::name(*side)).collect();
         for quoted in text.split('`').skip(1).step_by(2) {
             // A name, or terms as `0.5*name.Fx`.
@@ -187,7 +203,9 @@ impl Dependency<'_> {
                 .filter(|t| t.parse::<f64>().is_err());
             let is_known = |term: &str| {
                 let of = term.rsplit_once('.').map_or(term, |(name, _)| name);
-                matches!(term, "+" | "-") || joints.iter().chain(&bodies).any(|known| known == of)
+                matches!(term, "+" | "-")
+                    || joints.contains(&of)
+                    || bodies.iter().any(|known| known == of)
             };
             if !terms.all(is_known) {
                 self.note(findings, format!("`{quoted}` takes no part: {text}"));
@@ -203,15 +221,12 @@ impl Dependency<'_> {
                 self.note(findings, format!("the ratio is {expected:?}: {text}"));
             }
         }
-        self.told_loads(text, &links, findings);
-        let forces = links
-            .iter()
-            .filter_map(|&l| self.truth.carried(l, self.rows, self.circuit));
-        let posed = self.truth.posed;
-        let pushes = forces
-            .clone()
-            .any(|w| !(w.is_zero("Fx", posed) && w.is_zero("Fy", posed)));
-        let is_known = forces.count() == links.len();
+        self.told_loads(text, &owners, findings);
+        let carried = owners.iter().map(|&owner| self.carried(owner));
+        let carried: Option<Vec<Reaction>> = carried.collect();
+        let is_known = carried.is_some();
+        let mut loads = carried.iter().flatten();
+        let pushes = loads.any(|w| (0..3).any(|k| !w.is_zero(k)));
         if is_known && pushes && text.contains(" from turning") {
             self.note(findings, format!("they push as well: {text}"));
         }
@@ -224,20 +239,19 @@ impl Dependency<'_> {
 impl Dependency<'_> {
     /// Compares the loads that a sentence tells, "`a.Fx` = 1 N and `b.N` = −0.5 N cancel", and the
     /// combination of two of them that they leave as it is.
-    fn told_loads(&self, text: &str, links: &[usize], findings: &mut Findings) {
+    fn told_loads(&self, text: &str, owners: &[Owner], findings: &mut Findings) {
         let told = told(text);
         if told.is_empty() {
             return;
         }
-        let posed = self.truth.posed;
         let (mut answer, mut right) = (Vec::new(), Vec::new());
         let (mut signs, mut blades) = (Vec::new(), Vec::new());
-        for &link in links {
-            let name = posed.links[link].link.name.as_str();
-            let Some(carried) = self.truth.carried(link, self.rows, self.circuit) else {
+        for &owner in owners {
+            let name = self.name(owner);
+            let Some(carried) = self.carried(owner) else {
                 return;
             };
-            let numbers = carried.rounded(posed);
+            let numbers = self.rounded(&carried);
             let own = |axis: &str| {
                 let mut own = told
                     .iter()
@@ -252,7 +266,7 @@ impl Dependency<'_> {
                 let at = self
                     .rows
                     .iter()
-                    .position(|&i| self.truth.rows[i].link == link);
+                    .position(|&i| self.truth.rows[i].owner == owner);
                 signs.extend(at.map(|at| value * self.right()[at]));
                 continue;
             }
@@ -263,7 +277,8 @@ impl Dependency<'_> {
                 right.push(numbers.into_iter().fold(0.0, f64::hypot));
                 continue;
             }
-            answer.extend(["Fx", "Fy", "T"].map(|axis| own(axis).unwrap_or(0.0)));
+            let axes = self.truth.components.iter();
+            answer.extend(axes.map(|axis| own(axis.name).unwrap_or(0.0)));
             right.extend(numbers);
         }
         let is_one_sign = signs.windows(2).all(|pair| pair[0] * pair[1] > 0.0);
@@ -295,9 +310,9 @@ impl Dependency<'_> {
             }
             let of = |term: &'_ str| {
                 let (name, component) = term.rsplit_once('.')?;
-                let mut own = links.iter();
-                let link = own.find(|&&link| posed.links[link].link.name == name)?;
-                Some((*link, component.to_owned()))
+                let mut own = owners.iter();
+                let owner = own.find(|&&owner| self.name(owner) == name)?;
+                Some((*owner, component.to_owned()))
             };
             let pair = of(first).zip(of(second));
             let is_unique = pair.and_then(|((i, c), (j, d))| {
@@ -357,7 +372,7 @@ fn ratio(text: &str) -> Vec<f64> {
 /// Compares the groups of joints that share loads: unions of components, each once, with their
 /// redundancy.
 fn mixing(truth: &Truth, answer: &Value, findings: &mut Findings) {
-    let mut open = truth.components();
+    let mut open = truth.components_of_circuits();
     for mixing in list(&answer["mixing"]) {
         let own = rows(&mixing["rows"]);
         let mut covered = 0;
@@ -371,10 +386,7 @@ fn mixing(truth: &Truth, answer: &Value, findings: &mut Findings) {
             let text = format!("rows {} share loads: {}", mixing["rows"], mixing["text"]);
             findings.note(Kind::Sentence, text);
         }
-        let names = own
-            .iter()
-            .map(|&i| truth.posed.links[truth.rows[i].link].link.name.as_str());
-        let mut names: Vec<&str> = names.collect();
+        let mut names: Vec<&str> = own.iter().map(|&i| truth.name_of(i)).collect();
         names.sort_unstable();
         names.dedup();
         let mut answer: Vec<&str> = list(&mixing["reactions"])
@@ -401,18 +413,23 @@ fn mixing(truth: &Truth, answer: &Value, findings: &mut Findings) {
 
 /// "the reaction of `a` is not determined: it shares loads with `b` and `c`; determined is Fx and
 /// 0.6·Fx + 0.8·Fy"
-fn explanation(truth: &Truth, link: usize, answer: &Value, text: &str, findings: &mut Findings) {
+fn explanation(
+    truth: &Truth,
+    right: &ExpectedReaction,
+    answer: &Value,
+    text: &str,
+    findings: &mut Findings,
+) {
     let mut wrong = |why: &str| findings.note(Kind::Sentence, format!("{why}: {text}"));
-    let own = truth.rows_of(link);
-    if truth.is_unique(&own) {
+    if right.is_unique.is_unique() {
         wrong("is unique");
     }
-    let name = |&i: &usize| truth.posed.links[truth.rows[i].link].link.name.as_str();
+    let own = right.own_rows();
     let touching = truth
-        .components()
+        .components_of_circuits()
         .into_iter()
         .filter(|c| own.iter().any(|i| c.contains(i)));
-    let mut others: Vec<String> = touching.flatten().map(|i| name(&i).to_owned()).collect();
+    let mut others: Vec<&str> = touching.flatten().map(|i| truth.name_of(i)).collect();
     others.sort_unstable();
     others.dedup();
     let quoted: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
@@ -421,7 +438,7 @@ fn explanation(truth: &Truth, link: usize, answer: &Value, text: &str, findings:
     if sorted != others {
         wrong(&format!("{others:?} share loads"));
     }
-    let live = truth.live_directions(link);
+    let live = right.carried - right.free;
     if text.contains("nothing of it is determined") && live > 0 {
         wrong("something is determined");
     }
@@ -447,20 +464,19 @@ fn explanation(truth: &Truth, link: usize, answer: &Value, text: &str, findings:
         .flat_map(|part| part.split(" and "))
         .collect();
     // Directions along which the reaction is always zero may be listed too.
-    if all.len() < live || all.len() > truth.shared_directions(link, &components) {
+    if all.len() < live || all.len() > components.len() - right.free {
         wrong(&format!("{live} directions are determined"));
     }
-    let axes: Vec<usize> = components
-        .iter()
-        .filter_map(|name| ["Fx", "Fy", "T"].iter().position(|axis| name == axis))
-        .collect();
+    let free = right.wrench.as_ref().map_or(&[][..], |w| &w.free);
+    let axis = |name: &&str| truth.components.iter().position(|axis| axis.name == *name);
+    let axes: Vec<usize> = components.iter().filter_map(axis).collect();
     for combination in all {
         let Some(direction) = terms(combination, &components) else {
             wrong("cannot be read");
             return;
         };
-        if along_free(truth, link, &axes, &direction).is_some_and(|share| share > 2.0 * FOUR_DIGITS)
-        {
+        let share = share_of_free(free, &axes, &direction, truth.rounding);
+        if share.is_some_and(|share| share > 2.0 * FOUR_DIGITS) {
             wrong("is not determined");
         }
     }

@@ -106,7 +106,7 @@ fn rotate(u: &mut DMatrix<f64>, v: &mut DMatrix<f64>, [i, j]: [usize; 2]) -> boo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numbers::Numbers;
+    use suite::numbers::Numbers;
 
     /// Products of orthogonal reflections with known values, some of them equal and some tiny.
     #[test]

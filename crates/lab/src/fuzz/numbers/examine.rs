@@ -16,7 +16,7 @@ use super::refusals;
 use super::run::{Row, Run, prepared, run};
 use super::sets::{compliances, dropped, elastic, without};
 use super::verdicts::{Judge, OnRun, Product};
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// Agreement at one state, of the load.
 const AT_STATE: f64 = 1e-8;

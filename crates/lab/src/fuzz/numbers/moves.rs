@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::decomposition::Decomposition;
 use super::oracle::units;
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// Length of a step along what drives require, in sizes of the mechanism.
 const STEP: f64 = 1e-3;

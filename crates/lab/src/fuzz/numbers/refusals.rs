@@ -12,7 +12,7 @@ use super::moves::{march, marches, moves, ranks};
 use super::oracle::{Instant, inverse};
 use super::run::Run;
 use super::second_order::SecondOrder;
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// How long the motion is to go on where a run stopped (s).
 const AFTER: f64 = 1e-3;

@@ -11,8 +11,8 @@ use crate::fuzz::exact::pose::{Posed, Writing};
 use crate::fuzz::exact::text as text_of_plane;
 use crate::fuzz::scenes::Space;
 use crate::fuzz::space::families::Family as OfSpace;
-use crate::fuzz::space::text as text_of_space;
-use crate::numbers::Numbers;
+use crate::fuzz::space::text::{self as text_of_space, Precision};
+use suite::numbers::Numbers;
 
 use carriers::{Carrier, drive_one};
 use pieces::Stand;
@@ -50,25 +50,20 @@ pub fn scene(seed: u64, number: u64) -> Scene {
 
 /// A drawing of the suites of exact arithmetic, with gravity in any direction.
 fn drawn(space: Space, numbers: &mut Numbers) -> Scene {
-    let gravity = [0; 3].map(|_| 9.0 * numbers.unit());
+    let precision = Precision {
+        gravity: [0; 3].map(|_| 9.0 * numbers.unit()),
+        ..Precision::default()
+    };
     let (name, text) = match space {
         Space::Plane => {
             let family = OfPlane::ALL[numbers.below(OfPlane::ALL.len())];
             let drawing = family.draw(numbers);
             let posed = Posed::new(&drawing, Writing::Reordered, numbers);
-            let precision = text_of_plane::Precision {
-                gravity: [gravity[0], gravity[1]],
-                ..text_of_plane::Precision::default()
-            };
             let text = text_of_plane::text_within(&posed, &precision);
             (family.name(), text)
         }
         Space::Space => {
             let family = OfSpace::ALL[numbers.below(OfSpace::ALL.len())];
-            let precision = text_of_space::Precision {
-                gravity,
-                ..text_of_space::Precision::default()
-            };
             let text = text_of_space::text_within(&family.draw(numbers), &precision);
             (family.name(), text)
         }

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::decomposition::Decomposition;
 use super::oracle::{inverse, units};
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// Singular values below this fraction of the largest one count as zero.
 const ZERO: f64 = 1e-9;

@@ -7,7 +7,7 @@ use solvability::Compliance;
 use super::decomposition::Decomposition;
 use super::forms::Form;
 use super::oracle::Instant;
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// A row may be dropped next if its part in the left null space that remains is at least this share
 /// of the largest one: the solutions are then at most some hundred times the loads.

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::examine::examine;
 use super::findings::{Count, Findings, Kind};
 use super::scenes::{Scene, scene};
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// Number of mechanisms that are listed for each kind of disagreement.
 const LISTED: usize = 12;

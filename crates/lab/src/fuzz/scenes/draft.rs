@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// The space of a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -1,6 +1,6 @@
 //! Numbers and names of random scenes.
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// Extreme numbers, valid in some places and invalid in most.
 pub(crate) const EXTREMES: [&str; 30] = [

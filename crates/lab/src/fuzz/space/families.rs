@@ -13,7 +13,7 @@ mod platforms;
 mod supports;
 mod vehicles;
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use super::drawing::{Drawing, GROUND, Side};
 use super::relatives;

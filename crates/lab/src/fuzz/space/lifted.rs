@@ -34,7 +34,7 @@ use crate::fuzz::exact;
 use crate::fuzz::exact::answer::answer_of;
 use crate::fuzz::exact::families::Family;
 use crate::fuzz::exact::findings::{Findings, Kind, list};
-use crate::fuzz::exact::outcome::{Outcome, judged};
+use crate::fuzz::exact::outcome::{Judged, Outcome, judged};
 use crate::fuzz::exact::pose::Writing;
 
 /// What follows the name of a pin in a slot in the name of its row in the plane.
@@ -420,7 +420,7 @@ fn reaction_in_space(
 ///
 /// # Errors
 /// If the text is no scene with a consistent start.
-pub fn examine(text: &str) -> Result<Option<(Lifted, Findings, Option<u64>)>, String> {
+pub fn examine(text: &str) -> Result<Option<(Lifted, Judged)>, String> {
     let read = AssembledScene::read("scene.toml", text, &Registry::standard());
     let scene = read.map_err(|e| e.to_string())?.scene;
     let AnyDescription::Plane(description) = &scene.description else {
@@ -434,12 +434,15 @@ pub fn examine(text: &str) -> Result<Option<(Lifted, Findings, Option<u64>)>, St
         let [plane, space] = lifted.answers()?;
         Ok(serde_json::json!([plane, space]))
     };
-    let mut rank = None;
-    let (findings, _) = judged(documents, |both: &Value| {
-        rank = both[1]["rank"].as_u64();
-        compared(&lifted, &both[0], &both[1])
+    let judged = judged(documents, |both: &Value| {
+        let findings = compared(&lifted, &both[0], &both[1]);
+        Judged {
+            findings,
+            rank: both[1]["rank"].as_u64(),
+            other_rank: None,
+        }
     });
-    Ok(Some((lifted, findings, rank)))
+    Ok(Some((lifted, judged)))
 }
 
 /// Tests one scene of the plane. Gears and racks are left out: nothing of them can be lifted.
@@ -454,16 +457,16 @@ pub fn outcome(seed: u64, number: u64) -> Outcome {
     let text = exact::text::text(&scene.posed);
     let mut outcome = Outcome {
         family: scene.family.name(),
-        writing: scene.writing,
+        way: scene.writing as usize,
         text,
-        findings: Findings::default(),
-        rank: None,
+        judged: Judged::default(),
         truth: "nothing can be lifted".to_owned(),
-        redundancy: 0,
+        is_redundant: false,
+        must_be_decided: scene.writing != Writing::Far,
     };
     match examine(&outcome.text) {
         Ok(None) => {}
-        Ok(Some((lifted, findings, rank))) => {
+        Ok(Some((lifted, judged))) => {
             let graph = lifted.graph();
             outcome.truth = format!(
                 "{} flat joints, {} cycles, left out {:?}",
@@ -471,10 +474,10 @@ pub fn outcome(seed: u64, number: u64) -> Outcome {
                 graph.cycle_rank(),
                 lifted.left_out
             );
-            outcome.redundancy = graph.cycle_rank();
-            (outcome.findings, outcome.rank) = (findings, rank);
+            outcome.is_redundant = graph.cycle_rank() > 0;
+            outcome.judged = judged;
         }
-        Err(refusal) => outcome.findings.note(Kind::Refused, refusal),
+        Err(refusal) => outcome.judged.findings.note(Kind::Refused, refusal),
     }
     outcome
 }

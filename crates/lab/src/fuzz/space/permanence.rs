@@ -11,10 +11,10 @@ use num_bigint::BigInt;
 
 use super::drawing::{Drawing, Joint, Kind, Measure, Side};
 use super::ratio::{Ratio, whole_multiples};
-use super::rows::{Meaning, Wrench};
-use super::truth::{Truth, on_bodies};
 use super::vector::Vector;
-use crate::fuzz::exact::reference::Elsewhere;
+use crate::fuzz::exact::expected::Elsewhere;
+use crate::fuzz::exact::truth::Truth;
+use crate::fuzz::exact::wrench::{Meaning, Wrench};
 
 /// The velocity of a body: of the point at the origin of the ground, and of rotation.
 type Twist = [Vector; 2];
@@ -27,7 +27,7 @@ type Twist = [Vector; 2];
 /// rows rises along a velocity that is certainly one of a motion, because the holonomic rows
 /// without drives are independent.
 #[must_use]
-pub fn elsewhere(truth: &Truth<'_>) -> Elsewhere {
+pub fn elsewhere(truth: &Truth, drawing: &Drawing) -> Elsewhere {
     let all = |_: &Row| true;
     let holonomic = |row: &Row| row.leads;
     if truth.redundancy() == 0 {
@@ -35,8 +35,8 @@ pub fn elsewhere(truth: &Truth<'_>) -> Elsewhere {
     }
     let leading =
         truth.rows_where(|row| !row.meaning.is_nonholonomic() && row.meaning != Meaning::Driven);
-    let stays = is_permanent_of(truth.drawing, all);
-    if stays && is_permanent_of(truth.drawing, holonomic) {
+    let stays = is_permanent_of(drawing, all);
+    if stays && is_permanent_of(drawing, holonomic) {
         Elsewhere::Same
     } else if !stays && truth.rank_of(&leading) == leading.len() {
         Elsewhere::Higher
@@ -96,6 +96,18 @@ fn is_permanent_of(drawing: &Drawing, wanted: impl Fn(&Row) -> bool) -> bool {
             })
         })
     })
+}
+
+/// The row of C: the wrench on the second body, the opposite one on the first.
+fn on_bodies(drawing: &Drawing, sides: [Side; 2], wrench: &[BigInt]) -> Vec<BigInt> {
+    let mut row = vec![BigInt::default(); 6 * drawing.bodies.len()];
+    for (side, sign) in sides.into_iter().zip([-1, 1]) {
+        let Some(body) = side else { continue };
+        for (entry, x) in row[6 * body..].iter_mut().zip(wrench) {
+            *entry += x * sign;
+        }
+    }
+    row
 }
 
 struct Row {
@@ -275,8 +287,8 @@ mod tests {
     #[test]
     fn what_belongs_to_the_mechanism_and_what_to_its_pose() {
         let drawings = catalogue::all().into_iter();
-        let singular =
-            drawings.filter(|(_, drawing)| elsewhere(&Truth::of(drawing)) != Elsewhere::Same);
+        let singular = drawings
+            .filter(|(_, drawing)| elsewhere(&Truth::of(drawing), drawing) != Elsewhere::Same);
         let singular: Vec<&str> = singular.map(|(name, _)| name).collect();
         assert_eq!(singular, ["V6 two parallelograms, flat"]);
     }

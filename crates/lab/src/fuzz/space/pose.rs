@@ -2,7 +2,7 @@
 //! and joints in another order, first and second body exchanged. None of these changes which
 //! wrenches are unique, only their components.
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 pub use crate::fuzz::exact::pose::Writing;
 

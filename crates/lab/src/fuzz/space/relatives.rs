@@ -1,7 +1,7 @@
 //! Relatives of a drawing: one joint is weaker, or one axis is turned a little. They are drawn
 //! where they hold, often with full rank, and look like the redundant one.
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use super::drawing::{Drawing, Kind};
 use super::ratio::Ratio;

@@ -24,121 +24,60 @@
 #[cfg(test)]
 mod tests;
 
-use super::drawing::{Drawing, Joint, Kind, Measure};
-use super::ratio::Ratio;
+use num_bigint::BigInt;
+
+use super::drawing::{Drawing, Drive, Joint, Kind, Measure};
+use super::pose::extent;
 use super::vector::Vector;
+use crate::fuzz::exact::wrench::{AXES, Component, Element, Meaning, Owner, Row, Wrench, Wrenches};
 
-/// Force, and moment about the origin of the ground.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Wrench {
-    /// The force.
-    pub force: Vector,
-    /// The moment.
-    pub moment: Vector,
-}
-
-impl Wrench {
-    /// A force along a line through p.
-    #[must_use]
-    pub fn line(p: &Vector, force: &Vector) -> Self {
+impl From<&Drawing> for Wrenches {
+    fn from(drawing: &Drawing) -> Self {
+        let joints = || drawing.joints.iter().enumerate();
+        let place = |joint: &Joint| joint.kind.place().cloned().unwrap_or_else(Vector::zero);
+        let element = |owner, name: &String, joint: &Joint| Element {
+            owner,
+            name: name.clone(),
+            sides: joint.bodies.to_vec(),
+            place: Some(place(joint)),
+        };
+        let of_joints = joints().map(|(k, joint)| element(Owner::Joint(k), &joint.name, joint));
+        let drives = || drawing.drives.iter().enumerate();
+        let of_drives = drives().map(|(k, drive)| {
+            let joint = &drawing.joints[drive.joint];
+            element(Owner::Drive(k), &drive.name, joint)
+        });
+        let elements = of_joints.chain(of_drives).collect();
+        let of_joint = |(k, joint): (usize, &Joint)| {
+            let rows = of(drawing, joint).into_iter();
+            let sides = joint.bodies;
+            rows.map(move |(meaning, wrench)| Row::between(Owner::Joint(k), meaning, sides, wrench))
+        };
+        let of_drive = |(k, drive): (usize, &Drive)| {
+            let joint = &drawing.joints[drive.joint];
+            let wrench = driven(&joint.kind, drive.measure);
+            Row::between(Owner::Drive(k), Meaning::Driven, joint.bodies, wrench)
+        };
+        let component = |(k, name)| Component {
+            name,
+            terms: vec![(k, [1, 0].map(BigInt::from))],
+            unit: BigInt::from(1),
+        };
         Self {
-            force: force.clone(),
-            moment: p.cross(force),
+            bodies: drawing.bodies.len(),
+            velocities: (0..6).collect(),
+            components: AXES.into_iter().enumerate().map(component).collect(),
+            stretch: 1,
+            elements,
+            rows: joints()
+                .flat_map(of_joint)
+                .chain(drives().map(of_drive))
+                .collect(),
+            distance: extent(drawing),
+            theory: drawing.redundancy,
         }
+        .in_order()
     }
-
-    /// A couple.
-    #[must_use]
-    pub fn couple(moment: Vector) -> Self {
-        Self {
-            force: Vector::zero(),
-            moment,
-        }
-    }
-
-    /// Its six numbers.
-    #[must_use]
-    pub fn numbers(&self) -> [Ratio; 6] {
-        let ([a, b, c], [d, e, f]) = (&self.force.0, &self.moment.0);
-        [a, b, c, d, e, f].map(Clone::clone)
-    }
-}
-
-/// The element that a row belongs to, by its index in the file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Owner {
-    /// A joint.
-    Joint(usize),
-    /// A drive.
-    Drive(usize),
-}
-
-/// What a row says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Meaning {
-    /// Points coincide along an axis of the ground.
-    Point(usize),
-    /// A point stays on a line or plane: the offset along u (0), v (1) or the normal (2).
-    Offset(usize),
-    /// The second axis does not leave the first one towards u (0) or v (1).
-    Direction(usize),
-    /// The second u does not turn towards the first v: no relative rotation about w.
-    Turn,
-    /// Two axes stay perpendicular.
-    Perpendicular,
-    /// A length.
-    Length,
-    /// No velocity along the normal of an edge.
-    Edge,
-    /// A wheel touches its plane.
-    Contact,
-    /// A wheel does not slip along its heading.
-    Longitudinal,
-    /// A wheel does not slip across its heading.
-    Lateral,
-    /// A driven measure.
-    Driven,
-}
-
-impl Meaning {
-    /// Whether it restricts velocities only.
-    #[must_use]
-    pub fn is_nonholonomic(self) -> bool {
-        matches!(self, Self::Edge | Self::Longitudinal | Self::Lateral)
-    }
-}
-
-/// One row.
-#[derive(Clone, Debug)]
-pub struct Row {
-    /// Its joint or drive.
-    pub owner: Owner,
-    /// What it says.
-    pub meaning: Meaning,
-    /// The wrench of a unit multiplier on the second body; the first gets the opposite.
-    pub wrench: Wrench,
-}
-
-/// All rows in the order of a file: holonomic ones of joints, those of drives, then nonholonomic
-/// ones; each in the order of the file.
-#[must_use]
-pub fn rows(drawing: &Drawing) -> Vec<Row> {
-    let of_joint = |(k, joint): (usize, &Joint)| {
-        let rows = of(drawing, joint).into_iter();
-        rows.map(move |(meaning, wrench)| Row {
-            owner: Owner::Joint(k),
-            meaning,
-            wrench,
-        })
-    };
-    let joints = drawing.joints.iter().enumerate().flat_map(of_joint);
-    let (late, early): (Vec<Row>, Vec<Row>) = joints.partition(|r| r.meaning.is_nonholonomic());
-    let drives = drawing.drives.iter().enumerate().map(|(k, drive)| Row {
-        owner: Owner::Drive(k),
-        meaning: Meaning::Driven,
-        wrench: driven(&drawing.joints[drive.joint].kind, drive.measure),
-    });
-    early.into_iter().chain(drives).chain(late).collect()
 }
 
 /// The directions u, v across the axis w of a joint: u from the key `cross` if it is there, else

@@ -8,21 +8,17 @@
 use linalg::{Matrix, small_svd};
 use model::space::norm;
 
-use super::Expected;
 use super::drawing::Drawing;
-use super::examine::Right;
-use super::permanence::elsewhere;
-use super::rows::Row;
 use super::text::{Precision, text_within};
-use super::truth::Truth;
 use super::vector::Vector;
 use crate::fuzz::exact::answer::answer;
+use crate::fuzz::exact::distance::{BEYOND_DOUBT, Distance, Left};
 use crate::fuzz::exact::examine::{self, ranks_and_reactions, reactions};
-use crate::fuzz::exact::findings::Kind;
-use crate::fuzz::exact::outcome::judged;
-use crate::fuzz::exact::reference::{Elsewhere, Reference, Verdict};
-use crate::fuzz::exact::rounded::{DIGITS, Outcome};
-use crate::fuzz::exact::within::{BEYOND_DOUBT, FAR, Judged};
+use crate::fuzz::exact::expected::{Elsewhere, Expected, Verdict};
+use crate::fuzz::exact::outcome::{Judged, Outcome, judged};
+use crate::fuzz::exact::rounded::DIGITS;
+use crate::fuzz::exact::truth::Truth;
+use crate::fuzz::exact::wrench::Wrench;
 
 /// A row changes by at most so many tolerances: of the two ends of an arm or a direction on each of
 /// two bodies.
@@ -33,53 +29,40 @@ const CHANGES: f64 = 4.0;
 pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
     // The third way of writing.
     let scene = super::scene(seed, 4 * drawn + 2);
-    let truth = Truth::of(&scene.drawing);
-    let meant = Meant::of(&truth);
-    let right = Expected::from_truth(&truth);
+    let meant = Meant::of(&scene.drawing);
     let one = |(way, &digits): (usize, &usize)| {
         let mut precision = Precision::of_digits(&scene.drawing, digits);
         if digits == DIGITS[DIGITS.len() - 1] {
             precision.tolerance = None;
         }
         let known = precision.tolerance.map_or(0.0, |t| meant.known(t));
-        let mut other_rank = None;
-        let (findings, _) = judged(
-            || answer(&text_within(&scene.drawing, &precision)),
-            |document| {
-                let Judged {
-                    findings,
-                    other_rank: other,
-                } = meant.judge(document, precision.tolerance);
-                other_rank = other;
-                findings
-            },
+        let text = text_within(&scene.drawing, &precision);
+        let judged = judged(
+            || answer(&text),
+            |document| meant.judge(document, precision.tolerance),
         );
         Outcome {
             family: scene.family.name(),
             way,
-            text: text_within(&scene.drawing, &precision),
+            text,
             truth: format!(
                 "{}\nσ_r {:.2e}, C known to {known:.1e}, {}",
-                right.describe(),
+                meant.right.describe(),
                 meant.sigma,
-                meant.elsewhere.words()
+                meant.right.elsewhere.words()
             ),
-            judged: Judged {
-                findings,
-                other_rank,
-            },
-            is_far: meant.sigma >= FAR * known,
-            is_redundant: right.redundancy > 0,
+            judged,
+            must_be_decided: meant.distance(known).is_far(),
+            is_redundant: meant.right.redundancy > 0,
         }
     };
     DIGITS.iter().enumerate().map(one).collect()
 }
 
 /// The right results for a drawing, with their distance from others.
-pub struct Meant<'a> {
-    truth: &'a Truth<'a>,
-    /// The rank at other poses.
-    elsewhere: Elsewhere,
+pub struct Meant {
+    truth: Truth,
+    right: Expected,
     /// Size of the drawing (m).
     size: f64,
     /// The smallest singular value that is not zero, of rows of size one.
@@ -87,15 +70,16 @@ pub struct Meant<'a> {
     margins: Margins,
 }
 
-impl<'a> Meant<'a> {
+impl Meant {
     /// The right results, from exact arithmetic.
     #[must_use]
-    pub fn of(truth: &'a Truth<'a>) -> Self {
-        let size = size(truth.drawing);
-        let margins = Margins::of(truth, size);
+    pub fn of(drawing: &Drawing) -> Self {
+        let (truth, right) = drawing.right();
+        let size = size(drawing);
+        let margins = Margins::of(&truth, drawing, size);
         Self {
             truth,
-            elsewhere: elsewhere(truth),
+            right,
             size,
             sigma: margins.sigma,
             margins,
@@ -107,55 +91,91 @@ impl<'a> Meant<'a> {
         CHANGES * (self.truth.rows.len() as f64).sqrt() * tolerance / self.size
     }
 
+    fn distance(&self, known: f64) -> Distance {
+        Distance {
+            tolerance: known,
+            to_lower_rank: self.sigma,
+            is_permanent: self.right.elsewhere == Elsewhere::Same,
+        }
+    }
+
     /// Compares a document with the right results; a tolerance (m) is stated or not.
     #[must_use]
     pub fn judge(&self, document: &serde_json::Value, tolerance: Option<f64>) -> Judged {
-        let known = tolerance.map_or(0.0, |t| self.known(t));
         let mut judged = Judged::default();
-        let findings = &mut judged.findings;
-        let mut right = Right {
-            truth: self.truth,
-            elsewhere: self.elsewhere,
-            known_to: BEYOND_DOUBT * known / self.sigma,
+        let Some(tolerance) = tolerance else {
+            ranks_and_reactions(&self.truth, &self.right, document, &mut judged.findings);
+            return judged;
         };
-        if tolerance.is_none() {
-            ranks_and_reactions(&right, document, findings);
-            return judged;
-        }
-        let rank = self.truth.rank();
-        if document["evidence"]["status"] != "decided" {
-            let reason = &document["evidence"]["reason"];
-            findings.note(Kind::Undecided, format!("rank: {reason}"));
-            return judged;
-        }
-        let found = document["rank"].as_u64().unwrap_or(0) as usize;
-        let told = format!("rank: answer {found}, is {rank}");
-        if found < rank {
-            if BEYOND_DOUBT * known < self.sigma {
-                findings.note(Kind::Rank, told);
+        let (known, rank) = (self.known(tolerance), self.truth.rank());
+        match self.distance(known).judge(rank, document, &mut judged) {
+            Left::Nothing => {}
+            Left::NoVerdict => {
+                if self.right.elsewhere == Elsewhere::Same {
+                    let right = self.right.clone().with(Elsewhere::NotHigher);
+                    examine::elsewhere(&right, document, &mut judged.findings);
+                }
             }
-            judged.other_rank = Some("lower within the tolerance");
-        } else if found > rank {
-            if self.elsewhere == Elsewhere::Same {
-                findings.note(Kind::Rank, format!("{told} in every pose"));
+            Left::Verdicts => {
+                let right = self.open(known / self.sigma);
+                let rounding = self.truth.rounding.max(BEYOND_DOUBT * known / self.sigma);
+                reactions(&right, rounding, document, &mut judged.findings);
+                examine::elsewhere(&right, document, &mut judged.findings);
             }
-            judged.other_rank = Some("singular pose");
-        } else if BEYOND_DOUBT * known >= self.sigma {
-            if right.elsewhere == Elsewhere::Same {
-                right.elsewhere = Elsewhere::NotHigher;
-                examine::elsewhere(&right, document, findings);
-            }
-            judged.other_rank = Some("verdicts near a lower rank");
-        } else {
-            let open = Open {
-                right,
-                margins: &self.margins,
-                turned: known / self.sigma,
-            };
-            reactions(&open, document, findings);
-            examine::elsewhere(&open, document, findings);
         }
         judged
+    }
+
+    /// What exact arithmetic says, where data within a tolerance may not say otherwise: they turn
+    /// the null space by this angle at most.
+    fn open(&self, turned: f64) -> Expected {
+        let (truth, margins) = (&self.truth, &self.margins);
+        let mut right = self.right.clone();
+        let opened = |verdict: &mut Verdict, combination: &[(usize, f64)]| {
+            if *verdict == Verdict::NotUnique && margins.margin(combination) <= turned {
+                *verdict = Verdict::Open;
+            }
+        };
+        for reaction in &mut right.reactions {
+            let own = reaction.own_rows();
+            for (i, _, verdict) in &mut reaction.rows {
+                opened(verdict, &[(*i, 1.0)]);
+            }
+            let is_open = reaction.rows.iter().any(|(.., v)| *v == Verdict::Open);
+            let place = &truth.element(reaction.owner).place;
+            let (Some(wrench), Some(place)) = (&mut reaction.wrench, place) else {
+                continue;
+            };
+            let part = |i: usize| {
+                let [_, (_, load)] = &truth.rows[i].loads[..] else {
+                    return [0.0; 6];
+                };
+                about(load, place, self.size).map(|x| x * margins.factors[i])
+            };
+            let parts: Vec<[f64; 6]> = own.iter().map(|&i| part(i)).collect();
+            let combination = |k: usize| -> Vec<(usize, f64)> {
+                let own = own.iter().zip(&parts);
+                own.map(|(i, part)| (*i, part[k])).collect()
+            };
+            for (k, (_, verdict)) in wrench.components.iter_mut().enumerate() {
+                opened(verdict, &combination(k));
+            }
+            let images: Vec<Vec<f64>> = (0..6).map(|k| margins.free(&combination(k))).collect();
+            let images = Matrix::from_fn(6, truth.rows.len(), |k, i| images[k][i]);
+            let smallest = reaction.free.checked_sub(1);
+            let smallest = smallest.map(|k| small_svd(&images).sigma[k]);
+            wrench.is_open = is_open
+                || wrench.components.iter().any(|(_, v)| *v == Verdict::Open)
+                || smallest.is_some_and(|sigma| sigma <= turned);
+            let is_firm = wrench
+                .components
+                .iter()
+                .any(|(_, v)| *v == Verdict::NotUnique);
+            if !is_firm && reaction.is_unique == Verdict::NotUnique {
+                reaction.is_unique = Verdict::Open;
+            }
+        }
+        right
     }
 }
 
@@ -179,16 +199,16 @@ struct Margins {
 }
 
 impl Margins {
-    fn of(truth: &Truth<'_>, size: f64) -> Self {
-        let drawing = truth.drawing;
-        let factors: Vec<f64> = truth.rows.iter().map(|row| factor(row, size)).collect();
+    fn of(truth: &Truth, drawing: &Drawing, size: f64) -> Self {
+        let rows = truth.rows.iter();
+        let factors: Vec<f64> = rows.map(|row| factor(&row.loads[0].1, size)).collect();
         let mut c = Matrix::zeros(truth.rows.len(), 6 * drawing.bodies.len());
         for (i, row) in truth.rows.iter().enumerate() {
-            for (side, sign) in truth.sides(row.owner).into_iter().zip([-1.0, 1.0]) {
-                let Some(body) = side else { continue };
-                let wrench = about(row, &drawing.bodies[body].position, size);
+            for (side, load) in &row.loads {
+                let Some(body) = *side else { continue };
+                let wrench = about(load, &drawing.bodies[body].position, size);
                 for (k, x) in wrench.into_iter().enumerate() {
-                    c[(i, 6 * body + k)] += sign * factors[i] * x;
+                    c[(i, 6 * body + k)] += factors[i] * x;
                 }
             }
         }
@@ -225,103 +245,19 @@ impl Margins {
     }
 }
 
-/// The wrench of a row about a point, with moments divided by the size.
-fn about(row: &Row, point: &Vector, size: f64) -> [f64; 6] {
-    let moment = &row.wrench.moment - &point.cross(&row.wrench.force);
-    let [x, y, z] = row
-        .wrench
-        .force
-        .0
-        .each_ref()
-        .map(super::ratio::Ratio::rounded);
-    let [a, b, c] = moment.0.each_ref().map(super::ratio::Ratio::rounded);
+/// The wrench about a point, with moments divided by the size.
+fn about(wrench: &Wrench, point: &Vector, size: f64) -> [f64; 6] {
+    let moment = &wrench.moment - &point.cross(&wrench.force);
+    let rounded = |v: &Vector| v.0.each_ref().map(super::ratio::Ratio::rounded);
+    let ([x, y, z], [a, b, c]) = (rounded(&wrench.force), rounded(&moment));
     [x, y, z, a / size, b / size, c / size]
 }
 
-/// The factor by which the force of a row has size one, or its couple divided by the size.
-fn factor(row: &Row, size: f64) -> f64 {
-    let force = row.wrench.force.square().root();
-    if force > 0.0 {
-        return force.recip();
-    }
-    match row.wrench.moment.square().root() {
+/// The factor by which the force of a wrench has size one, or its couple divided by the size.
+fn factor(wrench: &Wrench, size: f64) -> f64 {
+    match wrench.length() {
         0.0 => 1.0,
-        couple => size / couple,
-    }
-}
-
-/// What exact arithmetic says, where data within a tolerance may not say otherwise.
-struct Open<'a> {
-    right: Right<'a>,
-    margins: &'a Margins,
-    /// The angle by which the null space may turn.
-    turned: f64,
-}
-
-impl Reference for Open<'_> {
-    fn ranks(&self) -> crate::fuzz::exact::reference::Ranks {
-        self.right.ranks()
-    }
-
-    fn rank_of(&self, rows: &[usize]) -> usize {
-        self.right.rank_of(rows)
-    }
-
-    fn reactions(&self) -> Vec<crate::fuzz::exact::reference::RightReaction> {
-        let truth = self.right.truth;
-        let size = size(truth.drawing);
-        let mut reactions = self.right.reactions();
-        let opened = |verdict: &mut Verdict, combination: &[(usize, f64)]| {
-            if *verdict == Verdict::NotUnique && self.margins.margin(combination) <= self.turned {
-                *verdict = Verdict::Open;
-            }
-        };
-        for reaction in &mut reactions {
-            let own = reaction.own_rows();
-            for (i, verdict) in &mut reaction.rows {
-                opened(verdict, &[(*i, 1.0)]);
-            }
-            let is_open = reaction.rows.iter().any(|(_, v)| *v == Verdict::Open);
-            let Some(wrench) = &mut reaction.wrench else {
-                continue;
-            };
-            let Some(&first) = own.first() else { continue };
-            let place = truth.place(truth.rows[first].owner);
-            let parts: Vec<[f64; 6]> = own
-                .iter()
-                .map(|&i| about(&truth.rows[i], &place, size).map(|x| x * self.margins.factors[i]))
-                .collect();
-            let combination = |k: usize| -> Vec<(usize, f64)> {
-                let own = own.iter().zip(&parts);
-                own.map(|(i, part)| (*i, part[k])).collect()
-            };
-            for (k, (_, verdict)) in wrench.components.iter_mut().enumerate() {
-                opened(verdict, &combination(k));
-            }
-            let images: Vec<Vec<f64>> =
-                (0..6).map(|k| self.margins.free(&combination(k))).collect();
-            let images = Matrix::from_fn(6, truth.rows.len(), |k, i| images[k][i]);
-            let free = truth.free_directions_of(&own);
-            let smallest = free.checked_sub(1).map(|k| small_svd(&images).sigma[k]);
-            wrench.is_open = is_open
-                || wrench.components.iter().any(|(_, v)| *v == Verdict::Open)
-                || smallest.is_some_and(|sigma| sigma <= self.turned);
-            let is_firm = wrench
-                .components
-                .iter()
-                .any(|(_, v)| *v == Verdict::NotUnique);
-            if !is_firm && reaction.is_unique == Verdict::NotUnique {
-                reaction.is_unique = Verdict::Open;
-            }
-        }
-        reactions
-    }
-
-    fn elsewhere(&self) -> Elsewhere {
-        self.right.elsewhere
-    }
-
-    fn rounding(&self) -> f64 {
-        self.right.rounding()
+        length if wrench.force.is_zero() => size / length,
+        length => length.recip(),
     }
 }

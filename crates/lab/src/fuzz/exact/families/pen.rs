@@ -2,7 +2,7 @@
 
 use super::super::drawing::{Drawing, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// Step sizes of the grid.
 const STEPS: [(i128, i128); 6] = [(1, 1), (1, 2), (1, 3), (1, 10), (3, 10), (1, 7)];

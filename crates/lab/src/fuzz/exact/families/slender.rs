@@ -2,7 +2,7 @@
 //! angles, thin loops. With a tolerance of at most a third of their distance from the lower rank,
 //! they must not be called redundant.
 
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 use super::super::drawing::{Drawing, GROUND, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;

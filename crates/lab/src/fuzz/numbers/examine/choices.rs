@@ -12,7 +12,7 @@ use crate::fuzz::numbers::moves::ranks;
 use crate::fuzz::numbers::run::RTOL;
 use crate::fuzz::numbers::sets::{elastic, without};
 use crate::fuzz::numbers::verdicts::Judge;
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// Agreement of chosen numbers, of the largest of them.
 const CHOSEN: f64 = 1e-7;

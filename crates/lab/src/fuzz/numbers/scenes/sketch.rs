@@ -4,7 +4,7 @@
 use std::fmt::Write;
 
 use crate::fuzz::scenes::Space;
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// A point or direction in the plane of a piece.
 pub(super) type Flat = [f64; 2];

@@ -5,7 +5,7 @@ use super::super::pose::{any_turn, quarter};
 use super::super::ratio::Ratio;
 use super::super::relatives::{any, any_across};
 use super::super::vector::{Motion, Rotation, Vector};
-use crate::numbers::Numbers;
+use suite::numbers::Numbers;
 
 /// Step sizes of the grid.
 const STEPS: [(i64, i64); 6] = [(1, 1), (1, 2), (1, 3), (1, 10), (3, 10), (1, 7)];

@@ -7,7 +7,7 @@
 
 use std::io;
 
-use suite::ROBOT;
+use crate::cases::ROBOT;
 
 use super::answer::{Answer, Free, FreeReaction};
 use super::family::Family;

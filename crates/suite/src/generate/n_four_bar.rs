@@ -33,7 +33,7 @@ impl NFourBar {
 /// θ̈ of N loops at the angle θ from the upward vertical (rad/s²).
 ///
 /// ```
-/// use lab::generate::n_four_bar::{GRAVITY, acceleration};
+/// use suite::generate::n_four_bar::{GRAVITY, acceleration};
 /// // One loop, horizontal: two uprights of inertia 1/3 and a mass of 1 at their tops; the weights act at the arms 1/2, 1/2 and 1.
 /// let horizontal = acceleration(1, std::f64::consts::FRAC_PI_2);
 /// assert!((horizontal - 2.0 * GRAVITY / (5.0 / 3.0)).abs() < 1e-14);

@@ -114,7 +114,7 @@ impl Kind {
 /// A request for a scene.
 ///
 /// ```
-/// use lab::generate::{Kind, Order};
+/// use suite::generate::{Kind, Order};
 /// // Three loops: 4 uprights and 3 rods, 4 feet and 6 tops, two rows each.
 /// let generator = Order::of(Kind::NFourBar, 3).generate()?;
 /// let answer = generator.answer();
@@ -123,7 +123,7 @@ impl Kind {
 /// let mut scene = Vec::new();
 /// generator.write(&mut scene).unwrap();
 /// assert!(scene.starts_with(b"# n-four-bar-3: "));
-/// # Ok::<(), lab::generate::GenerateError>(())
+/// # Ok::<(), suite::generate::GenerateError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Order {

@@ -1,0 +1,78 @@
+//! The rank of an answer for data within a tolerance, judged by their distance from a lower rank.
+
+use serde_json::Value;
+
+use super::findings::Kind;
+use super::outcome::Judged;
+
+/// Below the distance divided by this number, a tolerance does not change the rank; above the
+/// distance times this number, it lowers the rank.
+pub const BEYOND_DOUBT: f64 = 3.0;
+
+/// If the distance exceeds the tolerance by this factor, everything must be decided.
+const FAR: f64 = 30.0;
+
+/// A tolerance, and the distance of the data from a lower rank, in one unit.
+#[derive(Clone, Copy, Debug)]
+pub struct Distance {
+    /// The tolerance.
+    pub tolerance: f64,
+    /// No change below this one lowers the rank.
+    pub to_lower_rank: f64,
+    /// Whether the redundancy is the same at all poses.
+    pub is_permanent: bool,
+}
+
+/// What is left to compare after the rank.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Left {
+    /// Nothing: the rank is not decided, or another one.
+    Nothing,
+    /// No verdict: coefficients may vanish within the tolerance.
+    NoVerdict,
+    /// Everything.
+    Verdicts,
+}
+
+impl Distance {
+    /// Whether a lower rank is so far away that everything must be decided.
+    #[must_use]
+    pub fn is_far(self) -> bool {
+        self.to_lower_rank >= FAR * self.tolerance
+    }
+
+    /// Compares the rank of a document with the right one.
+    pub fn judge(self, rank: usize, answer: &Value, judged: &mut Judged) -> Left {
+        let evidence = &answer["evidence"];
+        if evidence["status"] != "decided" {
+            let text = format!("rank {}: {}", answer["rank"], evidence["reason"]);
+            judged.findings.note(Kind::Undecided, text);
+            return Left::Nothing;
+        }
+        let found = answer["rank"].as_u64().unwrap_or(0) as usize;
+        let is_safe = BEYOND_DOUBT * self.tolerance < self.to_lower_rank;
+        let told = format!(
+            "rank: answer {found}, is {rank}; tolerance {:.2e}, to a lower rank {:.2e}; {}",
+            self.tolerance, self.to_lower_rank, evidence["grounds"]
+        );
+        if found < rank {
+            if is_safe {
+                judged.findings.note(Kind::Rank, told);
+            }
+            judged.other_rank = Some("lower within the tolerance");
+            Left::Nothing
+        } else if found > rank {
+            if self.is_permanent {
+                let text = format!("{told}, at all poses");
+                judged.findings.note(Kind::Rank, text);
+            }
+            judged.other_rank = Some("singular pose");
+            Left::Nothing
+        } else if is_safe {
+            Left::Verdicts
+        } else {
+            judged.other_rank = Some("verdicts near a lower rank");
+            Left::NoVerdict
+        }
+    }
+}
