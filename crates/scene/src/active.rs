@@ -11,8 +11,9 @@ pub(crate) const ACTIVE: Key = Key::optional("active", "true or false", Takes::S
     .or(|| true.into());
 
 /// Whether the item of a table takes part. What cannot be read is reported, and does.
-pub(crate) fn read(table: &mut Table, findings: &mut Findings) -> bool {
-    let Some(field) = table.optional(&ACTIVE) else {
+/// Its key is not marked as known: it is the last one of its table.
+pub(crate) fn read(table: &Table, findings: &mut Findings) -> bool {
+    let Some(field) = table.field(ACTIVE.name) else {
         return true;
     };
     let value = match field.value.get_ref().as_bool() {

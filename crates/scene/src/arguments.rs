@@ -6,6 +6,7 @@ use joints::spec::{Parameter, Shape, Spec, Unit};
 use joints::{Argument, ArgumentError, Plane};
 use model::Function;
 
+use crate::argument_source::ArgumentSource;
 use crate::dimension::Dimension;
 use crate::direction::{self, Directions};
 use crate::field::{Field, all};
@@ -42,19 +43,27 @@ impl Arguments {
             complete: true,
         };
         let mut points = place.points.into_iter();
-        for parameter in spec.parameters {
+        for (k, parameter) in spec.parameters.iter().enumerate() {
+            if let Some((own, span)) = directions.given(spec, k) {
+                arguments.push::<S>(own, parameter.shape, span);
+                continue;
+            }
             if let Shape::Point { .. } = parameter.shape {
                 let point = points.next().flatten().map(S::argument);
                 arguments.push::<S>(point, parameter.shape, place.span.clone());
                 continue;
             }
-            let is_direction = matches!(
-                parameter.shape,
-                Shape::Axes { .. } | Shape::Direction { .. }
-            );
-            if let Some(between) = directions.between.as_ref().filter(|_| is_direction) {
-                let own = between.direction::<S>(parameter.name, parameter.shape);
-                arguments.push::<S>(own, parameter.shape, between.span.clone());
+            if let (Shape::Direction { slot }, ArgumentSource::Bearings(own)) =
+                (parameter.shape, &directions.source)
+            {
+                let last = spec.parameters[..k].iter().rposition(is_point);
+                let pitch = last.map(|at| &arguments.values[at]);
+                let pitch = pitch.filter(|_| arguments.complete);
+                let direction = |field: &Field, findings: &mut Findings| {
+                    directions.direction(field, slot, findings)
+                };
+                let (line, span) = own.line(table, parameter.name, direction, pitch, findings);
+                arguments.push::<S>(line, parameter.shape, span);
                 continue;
             }
             if let Shape::Axes { slot, like } = parameter.shape {
@@ -145,6 +154,10 @@ impl Arguments {
     }
 }
 
+fn is_point(parameter: &Parameter) -> bool {
+    matches!(parameter.shape, Shape::Point { .. })
+}
+
 /// A value that every definition accepts.
 fn harmless<S: SceneSpace>(shape: Shape) -> Argument {
     match shape {
@@ -157,7 +170,7 @@ fn harmless<S: SceneSpace>(shape: Shape) -> Argument {
     }
 }
 
-pub(crate) fn label(error: &ArgumentError) -> &'static str {
+fn label(error: &ArgumentError) -> &'static str {
     match error {
         ArgumentError::Negative { .. } => "may not be negative",
         ArgumentError::NoDirection { .. } => "has no direction",

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use joints::Argument;
 use joints::space3::Axes;
-use joints::spec::{Shape, Spec};
+use joints::spec::{Parameter, Shape, Spec};
 use model::{BodyRef, Marker};
 
 use crate::bodies::Bodies;
@@ -32,7 +32,10 @@ pub(crate) fn takes_markers<S: SceneSpace>(spec: &Spec) -> bool {
             Shape::Point { .. } | Shape::Direction { .. } | Shape::Axes { .. }
         )
     };
-    S::CARRIES && listed(spec) == 2 && spec.parameters.iter().any(|p| is_given(p.shape))
+    S::CARRIES
+        && !spec.bearings
+        && listed(spec) == 2
+        && spec.parameters.iter().any(|p| is_given(p.shape))
 }
 
 /// Keys that say the same as `markers`: the place, and parameters and keys of directions.
@@ -99,20 +102,15 @@ impl<'b> Between<'b> {
         Some(between)
     }
 
-    /// The points of a definition, relative to the centres of mass of their bodies.
-    pub(crate) fn points<S: SceneSpace>(
+    /// The argument of a point, or of a parameter along or across the axis: z of the marker of its
+    /// body, and x for what is called `cross`.
+    pub(crate) fn argument<S: SceneSpace>(
         &self,
-        spec: &Spec,
+        parameter: &Parameter,
         bodies: &Bodies<S>,
-    ) -> Vec<Option<S::Vector<f64>>> {
-        let point = |slot: usize| self.of(slot).map(|marker| bodies.place_of(marker));
-        spec.slots_of_points().map(point).collect()
-    }
-
-    /// The value of a parameter along or across the axis: z of the marker of its body, and x for
-    /// what is called `cross`.
-    pub(crate) fn direction<S: SceneSpace>(&self, name: &str, shape: Shape) -> Option<Argument> {
-        match shape {
+    ) -> Option<Argument> {
+        match parameter.shape {
+            Shape::Point { slot } => Some(S::argument(bodies.place_of(self.of(slot)?))),
             Shape::Axes { slot, .. } => {
                 let [x, y, z] = self.of(slot)?.axes();
                 Some(Argument::Axes(Axes::FRAME.map(|d| {
@@ -121,8 +119,8 @@ impl<'b> Between<'b> {
             }
             Shape::Direction { slot } => {
                 let [x, _, z] = self.of(slot)?.axes();
-                let along = if name == direction::CROSS { x } else { z };
-                Some(S::argument(S::vector(along)))
+                let is_across = parameter.name == direction::CROSS;
+                Some(S::argument(S::vector(if is_across { x } else { z })))
             }
             _ => None,
         }

@@ -6,12 +6,16 @@ mod key;
 
 pub(crate) use key::{AXES, CROSS, FRAME, FRAMES, keys};
 
+use std::ops::Range;
+
 use joints::space3::{Axes, dot};
 use joints::spec::{Shape, Spec};
 use joints::{Argument, Space3};
 use model::BodyRef;
 
-use crate::between::{Between, MARKERS};
+use crate::argument_source::ArgumentSource;
+use crate::bearings::CARRIER;
+use crate::between::MARKERS;
 use crate::bodies::Bodies;
 use crate::dimension::Dimension;
 use crate::field::Field;
@@ -32,8 +36,8 @@ pub(crate) struct Directions<'b, S: SceneSpace> {
     is_paired: bool,
     /// The axis in the frames of the bodies of the first two slots, if it could be read.
     own: Option<[S::Vector<f64>; 2]>,
-    /// The markers whose directions they are, if these are given.
-    pub(crate) between: Option<Between<'b>>,
+    /// Where they come from.
+    pub(crate) source: ArgumentSource<'b>,
 }
 
 impl<'b, S: SceneSpace> Directions<'b, S> {
@@ -42,7 +46,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         table: &mut Table,
         spec: &'static Spec,
         slots: &'b [Option<BodyRef>],
-        (bodies, between): (&'b Bodies<S>, Option<Between<'b>>),
+        (bodies, source): (&'b Bodies<S>, ArgumentSource<'b>),
         findings: &mut Findings,
     ) -> Self {
         let mut directions = Self {
@@ -52,10 +56,10 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
             across: None,
             is_paired: false,
             own: None,
-            between,
+            source,
         };
         // Other keys have been refused.
-        if directions.between.is_some() {
+        if let ArgumentSource::Markers(_) = directions.source {
             return directions;
         }
         if !S::CARRIES {
@@ -122,6 +126,15 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         }
     }
 
+    /// The argument of a parameter that is not in the table of the element, and its place.
+    pub(crate) fn given(
+        &self,
+        spec: &Spec,
+        parameter: usize,
+    ) -> Option<(Option<Argument>, Range<usize>)> {
+        self.source.argument(spec, parameter, self.bodies)
+    }
+
     /// Whether the axis is given by `axes` already.
     pub(crate) fn has_own_axes(&self) -> bool {
         self.is_paired
@@ -135,7 +148,15 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
 
     /// A direction as it is written, in the axes of the body in a slot.
     fn placed(&self, direction: S::Vector<f64>, slot: usize) -> S::Vector<f64> {
-        let written = if self.is_global { None } else { self.body(0) };
+        let home = match self.source {
+            ArgumentSource::Bearings(_) => CARRIER,
+            ArgumentSource::Text | ArgumentSource::Markers(_) => 0,
+        };
+        let written = if self.is_global {
+            None
+        } else {
+            self.body(home)
+        };
         S::carried(direction, written, self.body(slot))
     }
 
@@ -192,16 +213,13 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
 }
 
 /// Components of a direction.
-pub(crate) fn direction<S: SceneSpace>(
-    field: &Field,
-    findings: &mut Findings,
-) -> Option<S::Vector<f64>> {
+fn direction<S: SceneSpace>(field: &Field, findings: &mut Findings) -> Option<S::Vector<f64>> {
     let expected = Shape::Direction { slot: 0 }.words(S::DIM).to_string();
     field.vector::<S>(&expected, Dimension::NONE, findings)
 }
 
 /// Whether `frame` says that directions are written in ground axes.
-pub(crate) fn is_global(field: &Field, findings: &mut Findings) -> bool {
+fn is_global(field: &Field, findings: &mut Findings) -> bool {
     let [own, global] = FRAMES;
     let expected = format!("\"{own}\" or \"{global}\"");
     let Some(text) = field.text(&expected, findings) else {

@@ -46,36 +46,24 @@ fn in_space() -> Vec<&'static str> {
     kinds(SpaceKind::Space3)
 }
 
-/// The measures that were read, with their places.
-#[derive(Default)]
-pub(crate) struct Measures {
-    pub(crate) list: Vec<Measure>,
-    pub(crate) entries: Vec<Entry>,
-}
-
-impl Measures {
-    /// Reads one measure.
-    pub(crate) fn read(
-        &mut self,
-        mut table: Table,
-        name: &str,
-        space: SpaceKind,
-        markers: &Markers,
-        findings: &mut Findings,
-    ) {
-        let kind = kind(&mut table, space, findings);
-        let between = between(&mut table, markers, findings);
-        let entry = Entry::of(name, &table);
-        table.close(findings);
-        if let Some((kind, between)) = kind.zip(between) {
-            self.list.push(Measure {
-                name: name.to_owned(),
-                kind,
-                between,
-            });
-            self.entries.push(entry);
-        }
-    }
+/// Reads one measure with its place; `None` if it could not be read.
+pub(crate) fn read(
+    mut table: Table,
+    name: &str,
+    space: SpaceKind,
+    markers: &Markers,
+    findings: &mut Findings,
+) -> Option<(Measure, Entry)> {
+    let kind = kind(&mut table, space, findings);
+    let between = between(&mut table, markers, findings);
+    let entry = Entry::of(name, &table);
+    table.close(findings);
+    let measure = Measure {
+        name: name.to_owned(),
+        kind: kind?,
+        between: between?,
+    };
+    Some((measure, entry))
 }
 
 fn kind(table: &mut Table, space: SpaceKind, findings: &mut Findings) -> Option<MeasureKind> {

@@ -34,21 +34,40 @@ pub(crate) const POINT: &str = "point";
 
 /// The key of the place in the frames of the bodies.
 pub(crate) fn local_key(spec: &Spec) -> &'static str {
-    match listed(spec) {
-        1 => POINT,
-        _ => "points",
+    if listed(spec) == 1 || spec.bearings {
+        POINT
+    } else {
+        "points"
     }
 }
 
-/// Reads the place of a definition whose slots contain the bodies `slots`.
+/// The frames in which the points of such a key are, in words.
+fn frames(local_key: &str) -> &'static str {
+    match local_key {
+        POINT => "in the frame of the body",
+        _ => "in the frames of the bodies",
+    }
+}
+
+/// The slots of the bodies in whose frames the points are that a table gives: all of a definition,
+/// or the last one if bearings give the others.
+pub(crate) fn slots_of_points(spec: &Spec) -> Vec<usize> {
+    let mut slots: Vec<usize> = spec.slots_of_points().collect();
+    if spec.bearings {
+        slots.drain(..slots.len().saturating_sub(1));
+    }
+    slots
+}
+
+/// Reads the place of a definition whose slots contain the bodies `slots`: points of the bodies in
+/// the slots `of`.
 pub(crate) fn read<S: SceneSpace>(
     table: &mut Table,
     spec: &'static Spec,
-    slots: &[Option<BodyRef>],
+    (of, slots): (&[usize], &[Option<BodyRef>]),
     bodies: &Bodies<S>,
     findings: &mut Findings,
 ) -> Place<S> {
-    let of: Vec<usize> = spec.slots_of_points().collect();
     let missing = |span| Place {
         points: vec![None; of.len()],
         span,
@@ -64,23 +83,23 @@ pub(crate) fn read<S: SceneSpace>(
                 Mistake::Exclusive,
                 local.span(),
                 format!("{} takes `at` or `{local_key}`, not both", table.subject),
-                "and here in the frames of the bodies",
+                &format!("and here {}", frames(local_key)),
                 at.span(),
                 "the place is given here",
             );
             missing(local.span())
         }
         (Some(at), None) => Place {
-            points: global(&at, spec, &of, slots, bodies, findings),
+            points: global(&at, spec, of, slots, bodies, findings),
             span: at.span(),
         },
         (None, Some(local)) => Place {
             points: match local_key {
                 POINT => {
-                    let body = slots.first().copied().flatten();
+                    let body = slots.get(of[0]).copied().flatten();
                     of_body(&local, of.len(), body, bodies, findings)
                 }
-                _ => by_body(&local, &of, slots, bodies, findings),
+                _ => by_body(&local, of, slots, bodies, findings),
             },
             span: local.span(),
         },
@@ -89,11 +108,13 @@ pub(crate) fn read<S: SceneSpace>(
             if spec.points_apart {
                 form = format!("[{form}, …]");
             }
-            findings.error(Mistake::Missing,
+            findings.error(
+                Mistake::Missing,
                 table.header.clone(),
                 format!(
-                    "{} needs a place: `at = {form}` in global coordinates, or `{local_key}` in the frames of the bodies",
-                    table.subject
+                    "{} needs a place: `at = {form}` in global coordinates, or `{local_key}` {}",
+                    table.subject,
+                    frames(local_key)
                 ),
                 "the place is missing here",
             );
@@ -159,47 +180,6 @@ fn local<S: SceneSpace>(
         return None;
     }
     Some(local)
-}
-
-/// Reads one point of a body, `at` or in its frame by `point`. Returns `None` if it is missing or
-/// wrong, which is reported, or if the body is not known.
-pub(crate) fn one<S: SceneSpace>(
-    table: &mut Table,
-    body: Option<BodyRef>,
-    bodies: &Bodies<S>,
-    findings: &mut Findings,
-) -> Option<S::Vector<f64>> {
-    match (table.optional(AT), table.optional(POINT)) {
-        (Some(at), Some(own)) => {
-            findings.collision(
-                Mistake::Exclusive,
-                own.span(),
-                format!("{} takes `{AT}` or `{POINT}`, not both", table.subject),
-                "and here in the frame of the body",
-                at.span(),
-                "the place is given here",
-            );
-            None
-        }
-        (Some(at), None) => {
-            let read = point(&at, S::GLOBAL_POINT, bodies, findings)?;
-            local(&at, &read, body?, bodies, findings)
-        }
-        (None, Some(own)) => of_body(&own, 1, body, bodies, findings).pop()?,
-        (None, None) => {
-            findings.error(
-                Mistake::Missing,
-                table.header.clone(),
-                format!(
-                    "{} needs a place: `{AT} = {}` in global coordinates, or `{POINT}` in the frame of the body",
-                    table.subject,
-                    S::VECTOR
-                ),
-                "the place is missing here",
-            );
-            None
-        }
-    }
 }
 
 /// A point as it is written.

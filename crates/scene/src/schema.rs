@@ -13,14 +13,15 @@ use serde_json::{Map, Value, json};
 
 use crate::active::ACTIVE;
 use crate::body::SceneBody;
+use crate::drive::{DRIVE_KEYS, MEASURE};
 use crate::element::COUPLING;
 use crate::function::{KINDS, STEP_KEYS};
-use crate::joint::{DRIVE_KEYS, MEASURE};
+
+use crate::heading::SCENE_KEYS;
 use crate::key::{Interval, Key, TYPE};
 use crate::language::read::{self as language, UNIT_KEYS};
 use crate::nearest::list;
 use crate::reactions::{GROUP_KEYS, OUTPUT_KEYS};
-use crate::read::SCENE_KEYS;
 use crate::section::{self, NAME, Section};
 use crate::silence;
 use crate::space::SceneSpace;

@@ -65,6 +65,11 @@ impl<'t> Table<'t> {
         if !self.known.contains(&key) {
             self.known.push(key);
         }
+        self.field(key)
+    }
+
+    /// The value of a key; this does not mark it as known.
+    pub(crate) fn field(&self, key: &'static str) -> Option<Field<'t>> {
         let value = self.entries.get(key)?;
         Some(Field {
             subject: Rc::clone(&self.subject),
