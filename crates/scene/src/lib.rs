@@ -86,7 +86,7 @@ pub use diagnostic::{Diagnostic, Label, Severity};
 pub use language::Units;
 pub use nearest::{ELSEWHERE, nearest};
 pub use reactions::{GroupContent, GroupRequest, Output, WantedReactions};
-pub use read::read;
+pub use read::{read, read_and_build};
 pub use scene::{Inactive, Scene};
 pub use schema::schema;
 pub use source_map::{Entry, SourceMap};

@@ -53,6 +53,47 @@ use crate::text::SourceText;
 /// assert_eq!(problems[1].primary.text, "did you mean `mass`?");
 /// ```
 pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene, Vec<Diagnostic>> {
+    checked(source_name, text, registry).map(|(scene, _)| scene)
+}
+
+/// Like [`read()`], with the mechanism of the scene: it has been built to check the text.
+///
+/// # Errors
+/// As [`read()`].
+///
+/// ```
+/// use model::Registry;
+/// let text = "scene = { name = \"stone\", space = \"plane\" }\n\
+///             body = [{ name = \"stone\", mass = 1.0, inertia = 1.0 }]";
+/// let read = pfaff_scene::read_and_build("stone.toml", text, &Registry::standard());
+/// let (scene, mechanism) = read.expect("a scene");
+/// assert_eq!((scene.name(), mechanism.bodies().len()), ("stone", 1));
+/// ```
+pub fn read_and_build(
+    source_name: &str,
+    text: &str,
+    registry: &Registry,
+) -> Result<(Scene, Mechanism), Vec<Diagnostic>> {
+    let (scene, mechanism) = checked(source_name, text, registry)?;
+    if scene.inactive.is_empty() {
+        return Ok((scene, mechanism));
+    }
+    // The mechanism that was checked has what is not active, too.
+    match Mechanism::build(&scene.description) {
+        Ok(mechanism) => Ok((scene, mechanism)),
+        Err(errors) => Err(errors
+            .iter()
+            .filter_map(|e| scene.locate_build(e))
+            .collect()),
+    }
+}
+
+/// Reads a scene and builds the mechanism of all of its parts, active or not.
+fn checked(
+    source_name: &str,
+    text: &str,
+    registry: &Registry,
+) -> Result<(Scene, Mechanism), Vec<Diagnostic>> {
     let source = SourceText::new(source_name, text);
     let mut findings = Findings::new(&source);
     if let Some(excess) = limits::excess(text) {
@@ -78,17 +119,16 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     drop(language);
     // Large compared with what was read from it.
     drop(root);
-    if let Some(source) = &scene.source {
-        check(&scene.description, source, unit, &mut findings);
-    }
+    let mechanism = match &scene.source {
+        Some(source) => check(&scene.description, source, unit, &mut findings),
+        None => None,
+    };
     scene.take_out_inactive();
     scene.scales = findings.take_scales();
     scene.warnings = findings.take_warnings();
-    let problems = findings.sorted();
-    if problems.is_empty() {
-        Ok(scene)
-    } else {
-        Err(problems)
+    match (mechanism, findings.sorted()) {
+        (Some(mechanism), problems) if problems.is_empty() => Ok((scene, mechanism)),
+        (_, problems) => Err(problems),
     }
 }
 
@@ -207,15 +247,19 @@ fn check(
     source: &SourceMap,
     unit: LengthUnit,
     findings: &mut Findings,
-) {
+) -> Option<Mechanism> {
     let errors = match Mechanism::build(description) {
-        Ok(built) => return plausible::check(&built, source, unit, findings),
+        Ok(built) => {
+            plausible::check(&built, source, unit, findings);
+            return Some(built);
+        }
         Err(errors) => errors,
     };
     let of_drive = |of: &str| description.drives().any(|(drive, _)| drive == of);
     for (said, error) in errors.iter().enumerate() {
         if findings.is_full() {
-            return findings.count(errors.len() - said);
+            findings.count(errors.len() - said);
+            return None;
         }
         match error {
             BuildError::DuplicateName { .. } | BuildError::Ground | BuildError::NoBodies => {}
@@ -230,4 +274,5 @@ fn check(
             _ => findings.report(locate::build(source, description, error)),
         }
     }
+    None
 }
