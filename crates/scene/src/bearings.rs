@@ -16,7 +16,6 @@ use self::line::Axis;
 use crate::bodies::Bodies;
 use crate::dimension::Dimension;
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::joint_measure::{Purpose, dimension};
 use crate::joint_name::References;
 use crate::joint_read::{JointKind, JointRead};
@@ -62,13 +61,12 @@ impl<'a> Bearings<'a> {
     pub(crate) fn read<S: SceneSpace>(
         table: &mut Table,
         references: &References<'_, 'a, '_, S>,
-        findings: &mut Findings,
     ) -> Self {
         let usage = (Purpose::Bear, references.is_active);
-        let field = table.required(&BEARINGS, findings);
+        let field = table.required(&BEARINGS);
         let wheels = field.as_ref().and_then(|field| {
-            let named = references.joints.two(field, TWO_JOINTS, usage, findings)?;
-            Wheels::of(field, named, references.bodies, findings)
+            let named = references.joints.two(field, TWO_JOINTS, usage)?;
+            Wheels::of(field, named, references.bodies)
         });
         Self {
             span: table.span_of(BEARINGS.name),
@@ -102,9 +100,8 @@ impl<'a> Bearings<'a> {
         &self,
         table: &mut Table,
         key: &'static str,
-        direction: impl Fn(&Field, &mut Findings) -> Option<Argument>,
+        direction: impl Fn(&Field) -> Option<Argument>,
         pitch: Option<&Argument>,
-        findings: &mut Findings,
     ) -> (Option<Argument>, Range<usize>) {
         let (written, angle) = (table.optional(key), table.optional(&PRESSURE_ANGLE));
         let at = written.as_ref().map_or(self.span.clone(), Field::span);
@@ -117,13 +114,15 @@ impl<'a> Bearings<'a> {
                 );
                 let (label, other) = ("and here by an angle", "the line of action is given here");
                 let mistake = Mistake::Exclusive;
-                findings.collision(mistake, angle.span(), message, label, at.clone(), other);
+                table
+                    .findings
+                    .collision(mistake, angle.span(), message, label, at.clone(), other);
                 None
             }
-            (Some(line), None) => direction(&line, findings),
+            (Some(line), None) => direction(&line),
             (None, angle) => {
                 let angle = match angle {
-                    Some(angle) => angle.number(PRESSURE_ANGLE.unit, findings),
+                    Some(angle) => angle.number(PRESSURE_ANGLE.unit),
                     None => Some(0.0),
                 };
                 let wheels = self.wheels.as_ref().zip(pitch).zip(angle);
@@ -131,7 +130,9 @@ impl<'a> Bearings<'a> {
                     let refuse = |why| {
                         let message = format!("{subject} needs the key `{key}`: {why}");
                         let label = "the line of action does not follow from these";
-                        findings.error(Mistake::Bearings, at.clone(), message, label);
+                        table
+                            .findings
+                            .error(Mistake::Bearings, at.clone(), message, label);
                     };
                     let line = wheels.line(xyz(pitch)?, angle).map_err(refuse);
                     line.ok().map(Argument::Triple)
@@ -143,7 +144,9 @@ impl<'a> Bearings<'a> {
             let message = format!(
                 "{subject}: the line of action meets the axis of the {wheel} wheel, or is parallel to it"
             );
-            findings.error(Mistake::Bearings, at.clone(), message, "turns nothing");
+            table
+                .findings
+                .error(Mistake::Bearings, at.clone(), message, "turns nothing");
             return (None, at);
         }
         (line, at)
@@ -165,11 +168,12 @@ impl<'a> Wheels<'a> {
         field: &Field,
         named: [&'a JointRead<S>; 2],
         bodies: &Bodies<S>,
-        findings: &mut Findings,
     ) -> Option<Self> {
-        let mut report = |what: String, label: &str| {
+        let report = |what: String, label: &str| {
             let message = format!("{}: {what}", field.subject);
-            findings.error(Mistake::Bearings, field.span(), message, label);
+            field
+                .findings
+                .error(Mistake::Bearings, field.span(), message, label);
         };
         let read = named.map(|joint| {
             let bearing = match joint.kind {

@@ -12,7 +12,6 @@ use crate::bodies::Bodies;
 use crate::connection::listed;
 use crate::direction;
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::mistake::Mistake;
 use crate::place::{self, AT};
 use crate::space::SceneSpace;
@@ -77,19 +76,18 @@ impl<'b> Between<'b> {
         spec: &'static Spec,
         slots: &[Option<BodyRef>],
         bodies: &'b Bodies<S>,
-        findings: &mut Findings,
     ) -> Option<Self> {
         if !takes_markers::<S>(spec) {
             return None;
         }
         let field = table.optional(MARKERS)?;
         let between = Self {
-            markers: of_bodies(&field, slots, bodies, findings).unwrap_or_default(),
+            markers: of_bodies(&field, slots, bodies).unwrap_or_default(),
             span: field.span(),
         };
         for key in replaced(spec) {
             if let Some(other) = table.optional(key) {
-                findings.collision(
+                table.findings.collision(
                     Mistake::Exclusive,
                     other.span(),
                     format!("{} takes `{MARKERS}` or `{key}`, not both", table.subject),
@@ -136,19 +134,18 @@ fn of_bodies<'b, S: SceneSpace>(
     field: &Field,
     slots: &[Option<BodyRef>],
     bodies: &'b Bodies<S>,
-    findings: &mut Findings,
 ) -> Option<[Option<&'b Marker>; 2]> {
-    let items = field.items(EXPECTED, findings)?;
+    let items = field.items(EXPECTED)?;
     let [first, second] = items.as_slice() else {
-        field.miscount(EXPECTED, items.len(), 2, findings);
+        field.miscount(EXPECTED, items.len(), 2);
         return None;
     };
-    let mut of_slot = |slot: usize, field: &Field| {
-        let marker = bodies.markers.find(field, findings)?;
+    let of_slot = |slot: usize, field: &Field| {
+        let marker = bodies.markers.find(field)?;
         let body = slots.get(slot).copied().flatten()?;
         if marker.body != body {
             let needed = format!("one of `{}` is needed here", bodies.names.name(body));
-            bodies.not_of_body(marker, &needed, field, findings);
+            bodies.not_of_body(marker, &needed, field);
             return None;
         }
         Some(marker)

@@ -3,7 +3,6 @@
 use model::coupling::Placed;
 
 use crate::dimension::Dimension;
-use crate::findings::Findings;
 use crate::joint_measure::Purpose;
 use crate::joint_name::References;
 use crate::key::{Interval, Key, Takes};
@@ -28,13 +27,12 @@ pub(crate) const KEYS: [Key; 3] = [MEASURES, RATIO, COEFFICIENTS];
 pub(crate) fn read<S: SceneSpace>(
     table: &mut Table,
     references: &References<'_, '_, '_, S>,
-    findings: &mut Findings,
 ) -> Option<Placed<S>> {
     let usage = (Purpose::Couple, references.is_active);
-    let field = table.required(&MEASURES, findings);
+    let field = table.required(&MEASURES);
     let measures = field.as_ref().and_then(|field| {
         let joints = references.joints;
-        joints.two_measures(field, TWO_MEASURES, usage, findings)
+        joints.two_measures(field, TWO_MEASURES, usage)
     });
     let dimensions = match &measures {
         Some(measures) => measures.each_ref().map(|measure| measure.dimension),
@@ -43,21 +41,20 @@ pub(crate) fn read<S: SceneSpace>(
     let [of_x, of_y] = dimensions;
     let per = |power: i8| of_y.times(of_x, -power);
     let ratio = table
-        .required(&RATIO, findings)
-        .and_then(|field| field.number(per(1), findings));
+        .required(&RATIO)
+        .and_then(|field| field.number(per(1)));
     let more = table
         .optional(&COEFFICIENTS)
         .map_or(Some(Vec::new()), |field| {
             let power = |k: usize| i8::try_from(k + 2).unwrap_or(i8::MAX);
-            field.any_numbers(|k| per(power(k)), findings)
+            field.any_numbers(|k| per(power(k)))
         });
     let (field, [x, y]) = (field?, measures?);
     let coefficients = [vec![ratio?], more?].concat();
-    let place = || (&*table.subject, field.span());
-    let measures = [x.rows(place(), findings)?, y.rows(place(), findings)?];
+    let measures = [x.rows(&field)?, y.rows(&field)?];
     let couple = S::couple(measures, &coefficients);
     let refuse = |error| {
-        findings.error(
+        table.findings.error(
             Mistake::UnknownMeasure,
             field.span(),
             format!("{}: {error}", table.subject),

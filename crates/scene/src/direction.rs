@@ -19,7 +19,6 @@ use crate::between::MARKERS;
 use crate::bodies::Bodies;
 use crate::dimension::Dimension;
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::mistake::Mistake;
 use crate::nearest::did_you_mean;
 use crate::space::SceneSpace;
@@ -47,7 +46,6 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         spec: &'static Spec,
         slots: &'b [Option<BodyRef>],
         (bodies, source): (&'b Bodies<S>, ArgumentSource<'b>),
-        findings: &mut Findings,
     ) -> Self {
         let mut directions = Self {
             bodies,
@@ -76,11 +74,11 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
                 continue;
             };
             match key {
-                FRAME => directions.is_global = is_global(&field, findings),
-                CROSS => directions.across = direction::<S>(&field, findings),
+                FRAME => directions.is_global = is_global(&field),
+                CROSS => directions.across = direction::<S>(&field),
                 _ => {
                     directions.is_paired = true;
-                    directions.own = directions.both(&field, findings);
+                    directions.own = directions.both(&field);
                 }
             }
         }
@@ -88,8 +86,8 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
     }
 
     /// `axes`: one direction for each body, in its own frame.
-    fn both(&self, field: &Field, findings: &mut Findings) -> Option<[S::Vector<f64>; 2]> {
-        let table = field.table(S::BY_BODY, findings)?;
+    fn both(&self, field: &Field) -> Option<[S::Vector<f64>; 2]> {
+        let table = field.table(S::BY_BODY)?;
         let [Some(first), Some(second)] = self.slots.first_chunk()? else {
             return None;
         };
@@ -100,10 +98,12 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
             let Some((_, field)) = own else {
                 let message = format!("{} needs the direction of `{name}`", table.subject);
                 let label = format!("`{name} = {}` is missing here", S::VECTOR);
-                findings.error(Mistake::Missing, table.header.clone(), message, label);
+                field
+                    .findings
+                    .error(Mistake::Missing, table.header.clone(), message, label);
                 return None;
             };
-            direction::<S>(field, findings)
+            direction::<S>(field)
         });
         for (key, field) in all
             .iter()
@@ -113,7 +113,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
                 "{} names `{}`, which is not connected",
                 table.subject, field.key
             );
-            findings.error(
+            field.findings.error(
                 Mistake::UnknownKey,
                 key.clone(),
                 message,
@@ -161,25 +161,15 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
     }
 
     /// The direction of a parameter.
-    pub(crate) fn direction(
-        &self,
-        field: &Field,
-        slot: usize,
-        findings: &mut Findings,
-    ) -> Option<Argument> {
-        let direction = direction::<S>(field, findings)?;
+    pub(crate) fn direction(&self, field: &Field, slot: usize) -> Option<Argument> {
+        let direction = direction::<S>(field)?;
         Some(S::argument(self.placed(direction, slot)))
     }
 
     /// The axis of a parameter; without a field that of `axes`, or the axes of the body.
-    pub(crate) fn axis(
-        &self,
-        field: Option<&Field>,
-        slot: usize,
-        findings: &mut Findings,
-    ) -> Option<Argument> {
+    pub(crate) fn axis(&self, field: Option<&Field>, slot: usize) -> Option<Argument> {
         let axis = match (field, self.own) {
-            (Some(field), _) => self.placed(direction::<S>(field, findings)?, slot),
+            (Some(field), _) => self.placed(direction::<S>(field)?, slot),
             (None, Some(own)) => *own.get(slot)?,
             (None, None) if self.is_paired => return None,
             (None, None) => return Some(Argument::Axes(Axes::FRAME)),
@@ -213,20 +203,20 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
 }
 
 /// Components of a direction.
-fn direction<S: SceneSpace>(field: &Field, findings: &mut Findings) -> Option<S::Vector<f64>> {
+fn direction<S: SceneSpace>(field: &Field) -> Option<S::Vector<f64>> {
     let expected = Shape::Direction { slot: 0 }.words(S::DIM).to_string();
-    field.vector::<S>(&expected, Dimension::NONE, findings)
+    field.vector::<S>(&expected, Dimension::NONE)
 }
 
 /// Whether `frame` says that directions are written in ground axes.
-fn is_global(field: &Field, findings: &mut Findings) -> bool {
+fn is_global(field: &Field) -> bool {
     let [own, global] = FRAMES;
     let expected = format!("\"{own}\" or \"{global}\"");
-    let Some(text) = field.text(&expected, findings) else {
+    let Some(text) = field.text(&expected) else {
         return false;
     };
     if !FRAMES.contains(&text) {
-        findings.error_with_help(
+        field.findings.error_with_help(
             Mistake::UnknownChoice,
             field.span(),
             format!(

@@ -8,7 +8,6 @@ use crate::active;
 use crate::dimension::Dimension;
 use crate::element;
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::function::{self, Domain};
 use crate::joint_measure::Purpose;
 use crate::joint_name::JointNames;
@@ -76,49 +75,49 @@ pub(crate) fn read<S: SceneSpace>(
     name: &str,
     joints: &JointNames<S>,
     domains: &mut Vec<Domain>,
-    findings: &mut Findings,
 ) -> DriveRead<S> {
-    let is_active = active::read(&table, findings);
-    let joint = table.required(&JOINT, findings);
-    let joint = joint.and_then(|field| joints.one(&field, (Purpose::Drive, is_active), findings));
-    let field = table.needed(TYPE, MEASURE, findings);
+    let is_active = active::read(&table);
+    let joint = table.required(&JOINT);
+    let joint = joint.and_then(|field| joints.one(&field, (Purpose::Drive, is_active)));
+    let field = table.needed(TYPE, MEASURE);
     let measure = field.and_then(|field| {
-        let measure = field.text(MEASURE, findings)?;
-        let place = (&*table.subject, field.span());
-        joint?.measure(Some(measure), Purpose::Drive, place, findings)
+        let name = field.text(MEASURE)?;
+        let measure = joint?.measure(Some(name), Purpose::Drive, &field)?;
+        Some((measure, field))
     });
-    let dimension = measure.as_ref().map(|measure| measure.dimension);
+    let dimension = measure.as_ref().map(|(measure, _)| measure.dimension);
     let laws = [FORCE, TORQUE].map(|key| table.optional(&key));
     let motion = match &laws {
-        [None, None] => table.required(&MOTION, findings),
+        [None, None] => table.required(&MOTION),
         _ => table.optional(&MOTION),
     };
-    let at = table.span_of(TYPE);
-    let place = (&*table.subject.clone(), at);
     let is_law = laws.iter().any(Option::is_some);
     let (mut drive, mut force) = (None, None);
     match (motion, laws) {
         (Some(field), [None, None]) => {
             let mut own = Vec::new();
-            let motion = motion_of(&field, dimension, &mut own, findings);
+            let motion = motion_of(&field, dimension, &mut own);
             if is_active {
                 domains.append(&mut own);
             }
-            drive = measure.as_ref().zip(motion).and_then(|(measure, motion)| {
-                let (bodies, element) = measure.rows(place, findings)?;
-                Some(Drive {
-                    name: name.to_owned(),
-                    bodies,
-                    element,
-                    motion,
-                    tolerance: measure.tolerance(),
-                })
-            });
+            drive = measure
+                .as_ref()
+                .zip(motion)
+                .and_then(|((measure, field), motion)| {
+                    let (bodies, element) = measure.rows(field)?;
+                    Some(Drive {
+                        name: name.to_owned(),
+                        bodies,
+                        element,
+                        motion,
+                        tolerance: measure.tolerance(),
+                    })
+                });
         }
         (None, [Some(field), None] | [None, Some(field)]) => {
-            let law = read_law(&field, dimension, findings);
+            let law = read_law(&field, dimension);
             let acting = measure.as_ref().zip(law);
-            force = acting.and_then(|(measure, law)| measure.force(name, law, place, findings));
+            force = acting.and_then(|((measure, field), law)| measure.force(name, law, field));
         }
         (None, [None, None]) => {}
         _ => {
@@ -127,12 +126,15 @@ pub(crate) fn read<S: SceneSpace>(
                 table.subject
             );
             let label = "a drive does one of them";
-            findings.error(Mistake::Exclusive, table.header.clone(), message, label);
+            table
+                .findings
+                .error(Mistake::Exclusive, table.header.clone(), message, label);
         }
     }
     let is_complete = drive.is_some() || force.is_some();
-    let replaced = measure.filter(|measure| measure.spec.is_kept && is_active && is_complete);
-    let entry = element::end(table, name, is_active, findings);
+    let replaced = measure.map(|(measure, _)| measure);
+    let replaced = replaced.filter(|own| own.spec.is_kept && is_active && is_complete);
+    let entry = element::end(table, name, is_active);
     DriveRead {
         name: name.to_owned(),
         is_active,
@@ -150,18 +152,17 @@ fn motion_of(
     field: &Field,
     dimension: Option<Dimension>,
     domains: &mut Vec<Domain>,
-    findings: &mut Findings,
 ) -> Option<Function> {
     let of = dimension.unwrap_or(Dimension::UNKNOWN);
-    let motion = function::read(field, of, domains, findings)?;
+    let motion = function::read(field, of, domains)?;
     if field.may_be_number() {
-        warn_if_held(field, &motion, findings);
+        warn_if_held(field, &motion);
     }
     Some(motion)
 }
 
 /// Reads a law along a measure of this dimension.
-fn read_law(field: &Field, of: Option<Dimension>, findings: &mut Findings) -> Option<Law> {
+fn read_law(field: &Field, of: Option<Dimension>) -> Option<Law> {
     let of = of?;
     let (result, key) = if of == Dimension::ANGLE {
         (Unit::Torque.into(), TORQUE.name)
@@ -169,7 +170,7 @@ fn read_law(field: &Field, of: Option<Dimension>, findings: &mut Findings) -> Op
         (Unit::Force.into(), FORCE.name)
     };
     if field.key != key {
-        findings.error_with_help(
+        field.findings.error_with_help(
             Mistake::OtherLoad,
             field.span(),
             format!(
@@ -183,12 +184,12 @@ fn read_law(field: &Field, of: Option<Dimension>, findings: &mut Findings) -> Op
         );
         return None;
     }
-    field.law(LAW, of, result, findings)
+    field.law(LAW, of, result)
 }
 
 /// Warns of a motion that is a number other than zero: whoever writes one may expect a speed or a
 /// place, but a drive follows f(t) − f(0).
-fn warn_if_held(motion: &Field, function: &Function, findings: &mut Findings) {
+fn warn_if_held(motion: &Field, function: &Function) {
     let [held, ..] = function.jet(0.0);
     if held == 0.0 {
         return;
@@ -197,7 +198,7 @@ fn warn_if_held(motion: &Field, function: &Function, findings: &mut Findings) {
         Some(text) => format!("{text:?}"),
         None => held.to_string(),
     };
-    findings.warning(
+    motion.findings.warning(
         const { Code::new(191) },
         motion.span(),
         format!(

@@ -13,7 +13,6 @@ use crate::bearings::Bearings;
 use crate::between::Between;
 use crate::connection;
 use crate::direction::Directions;
-use crate::findings::Findings;
 use crate::function::Domain;
 use crate::joint_name::References;
 use crate::key::TYPE;
@@ -134,10 +133,9 @@ impl<S: SceneSpace> std::fmt::Display for Types<'_, S> {
 pub(crate) fn scene_type<S: SceneSpace>(
     table: &mut Table,
     types: &Types<S>,
-    findings: &mut Findings,
 ) -> Option<&'static str> {
-    let field = table.needed(TYPE, types, findings)?;
-    let name = field.text("the name of a type", findings)?;
+    let field = table.needed(TYPE, types)?;
+    let name = field.text("the name of a type")?;
     if let Some(known) = types.known.iter().find(|known| **known == name) {
         return Some(known);
     }
@@ -174,7 +172,7 @@ pub(crate) fn scene_type<S: SceneSpace>(
         },
     };
     let all = || format!("the types of a {} are {}", types.kind, types);
-    findings.error_with_help(
+    table.findings.error_with_help(
         Mistake::UnknownType,
         field.span(),
         format!("{} has the unknown type `{name}`", table.subject),
@@ -191,26 +189,25 @@ pub(crate) fn read<'d, D: Definition>(
     definitions: &[&'d D],
     references: &References<'_, '_, '_, D::Space>,
     domains: &mut Vec<Domain>,
-    findings: &mut Findings,
 ) -> Option<ElementRead<'d, D>> {
     let specs: Vec<&'static Spec> = definitions.iter().map(|d| d.spec()).collect();
     let bodies = references.bodies;
     let (at, slots, source);
     if let Some(borne) = specs.iter().position(|spec| spec.bearings) {
-        let bearings = Bearings::read(table, references, findings);
+        let bearings = Bearings::read(table, references);
         slots = bearings.slots();
         (at, source) = (borne, ArgumentSource::Bearings(bearings));
     } else {
-        let chosen = connection::named(table, &specs, &bodies.names, findings).and_then(|named| {
-            let at = connection::choose(table, &specs, named.len(), findings)?;
+        let chosen = connection::named(table, &specs, &bodies.names).and_then(|named| {
+            let at = connection::choose(table, &specs, named.len())?;
             Some((at, named))
         });
         let Some((chosen, named)) = chosen else {
             connection::forgive(table, &specs);
             return None;
         };
-        slots = connection::slots(table, specs[chosen], named, &bodies.names, findings);
-        let between = Between::read(table, specs[chosen], &slots, bodies, findings);
+        slots = connection::slots(table, specs[chosen], named, &bodies.names);
+        let between = Between::read(table, specs[chosen], &slots, bodies);
         (at, source) = (
             chosen,
             between.map_or(ArgumentSource::Text, ArgumentSource::Markers),
@@ -221,15 +218,14 @@ pub(crate) fn read<'d, D: Definition>(
         ArgumentSource::Markers(_) => Vec::new(),
         ArgumentSource::Text | ArgumentSource::Bearings(_) => place::slots_of_points(spec),
     };
-    let place = place::read(table, spec, (&of_points, &slots), bodies, findings);
-    let directions = Directions::read(table, spec, &slots, (bodies, source), findings);
+    let place = place::read(table, spec, (&of_points, &slots), bodies);
+    let directions = Directions::read(table, spec, &slots, (bodies, source));
     let mut own = Vec::new();
-    let mut arguments = Arguments::read(table, spec, place, &directions, &mut own, findings);
+    let mut arguments = Arguments::read(table, spec, place, &directions, &mut own);
     if references.is_active {
         domains.append(&mut own);
     }
-    let subject = table.subject.clone();
-    let built = arguments.build::<D::Space, _>(spec, &subject, definition.constructor(), findings);
+    let built = arguments.build::<D::Space, _>(table, spec, definition.constructor());
     let slots: Option<Vec<BodyRef>> = slots.into_iter().collect();
     Some(ElementRead {
         definition,
@@ -239,9 +235,9 @@ pub(crate) fn read<'d, D: Definition>(
 }
 
 /// The end of every table of an element: whether it takes part has been read.
-pub(crate) fn end(mut table: Table, name: &str, is_active: bool, findings: &mut Findings) -> Entry {
+pub(crate) fn end(mut table: Table, name: &str, is_active: bool) -> Entry {
     table.optional(&ACTIVE);
     let entry = Entry::switched(name, &table, is_active);
-    table.close(findings);
+    table.close();
     entry
 }

@@ -5,7 +5,6 @@ use model::Force;
 use crate::active;
 use crate::connection;
 use crate::element::{self, Types};
-use crate::findings::Findings;
 use crate::function::Domain;
 use crate::joint_name::References;
 use crate::source_map::Entry;
@@ -20,24 +19,23 @@ pub(crate) fn read<S: SceneSpace>(
     types: &Types<S>,
     references: &References<'_, '_, '_, S>,
     domains: &mut Vec<Domain>,
-    findings: &mut Findings,
 ) -> Option<(Force<S>, Entry)> {
     let references = References {
-        is_active: active::read(&table, findings),
+        is_active: active::read(&table),
         ..*references
     };
     if spring::is_meant::<S>(&table) {
-        let force = spring::read(&mut table, name, &references, findings);
-        let entry = element::end(table, name, references.is_active, findings);
+        let force = spring::read(&mut table, name, &references);
+        let entry = element::end(table, name, references.is_active);
         return Some((force?, entry));
     }
-    let Some(scene_type) = element::scene_type(&mut table, types, findings) else {
-        connection::check_names(&mut table, &references.bodies.names, findings);
+    let Some(scene_type) = element::scene_type(&mut table, types) else {
+        connection::check_names(&mut table, &references.bodies.names);
         return None;
     };
     let definitions: Vec<_> = types.registry.forces(scene_type).collect();
-    let read = element::read(&mut table, &definitions, &references, domains, findings);
-    let entry = element::end(table, name, references.is_active, findings);
+    let read = element::read(&mut table, &definitions, &references, domains);
+    let entry = element::end(table, name, references.is_active);
     let read = read?;
     let (bodies, element) = read.element?;
     let force = Force {

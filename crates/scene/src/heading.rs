@@ -4,7 +4,6 @@ use joints::{Plane, Space, Space3};
 use model::Tolerance;
 use toml::de::DeTable;
 
-use crate::findings::Findings;
 use crate::key::{Key, Takes};
 use crate::language;
 use crate::mistake::Mistake;
@@ -48,22 +47,24 @@ impl<S: SceneSpace> Default for Heading<S> {
 
 impl<S: SceneSpace> Heading<S> {
     /// Reads the section.
-    pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Self {
-        let name = table.required(&NAME, findings).and_then(|field| {
-            let name = field.text(NAME.expected, findings)?;
+    pub(crate) fn read(mut table: Table) -> Self {
+        let name = table.required(&NAME).and_then(|field| {
+            let name = field.text(NAME.expected)?;
             if let Some((reason, label)) = section::unfit(name) {
                 let message = format!("`[scene]`: `name` {reason}");
-                findings.error(Mistake::UnfitName, field.span(), message, label);
+                table
+                    .findings
+                    .error(Mistake::UnfitName, field.span(), message, label);
             }
             Some(name.to_owned())
         });
-        let space = table.required(&SPACE, findings);
+        let space = table.required(&SPACE);
         if let Some(field) = space
-            && let Some(space) = field.text(SPACE.expected, findings)
+            && let Some(space) = field.text(SPACE.expected)
             && space != S::NAME
         {
             let known = list(spaces());
-            findings.error(
+            table.findings.error(
                 Mistake::UnknownChoice,
                 field.span(),
                 format!("`[scene]`: `space` is \"{space}\", there are {known}"),
@@ -72,16 +73,16 @@ impl<S: SceneSpace> Heading<S> {
         }
         let gravity = table.optional(&S::GRAVITY).and_then(|field| {
             let Key { expected, unit, .. } = S::GRAVITY;
-            let gravity = field.vector::<S>(expected, unit, findings)?;
-            plausible::gravity(&field, gravity.as_ref(), findings);
+            let gravity = field.vector::<S>(expected, unit)?;
+            plausible::gravity(&field, gravity.as_ref());
             Some(gravity)
         });
-        let tolerance = tolerance::of_scene(&mut table, findings);
+        let tolerance = tolerance::of_scene(&mut table);
         for key in &language::read::SCENE_KEYS {
             table.optional(key);
         }
-        silence::read(&mut table, findings);
-        table.close(findings);
+        silence::read(&mut table);
+        table.close();
         Self {
             name: name.unwrap_or_default(),
             gravity: gravity.unwrap_or_else(|| S::vector([0.0; 3])),

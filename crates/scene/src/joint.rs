@@ -8,7 +8,6 @@ use crate::bodies::Bodies;
 use crate::connection;
 use crate::coupling;
 use crate::element::{self, COUPLING, Types};
-use crate::findings::Findings;
 use crate::function::Domain;
 use crate::joint_name::{JointNames, References};
 use crate::joint_read::{CompleteJoint, JointKind, JointRead};
@@ -23,7 +22,6 @@ pub(crate) fn read<'r, S: SceneSpace>(
     types: &Types<'r, S>,
     bodies: &Bodies<S>,
     domains: &mut Vec<Domain>,
-    findings: &mut Findings,
 ) -> Vec<JointRead<'r, S>> {
     let mut joints = Vec::with_capacity(tables.len());
     let mut waiting = Vec::new();
@@ -35,12 +33,12 @@ pub(crate) fn read<'r, S: SceneSpace>(
                 waiting.push((joints.len(), table, name));
                 joint
             }
-            None => one(table, &name, types, (bodies, &none), domains, findings),
+            None => one(table, &name, types, (bodies, &none), domains),
         });
     }
     let names = JointNames::of(&joints);
     let read = waiting.into_iter().map(|(at, table, name)| {
-        let joint = one(table, &name, types, (bodies, &names), domains, findings);
+        let joint = one(table, &name, types, (bodies, &names), domains);
         (at, joint)
     });
     for (at, joint) in read.collect::<Vec<_>>() {
@@ -71,14 +69,13 @@ fn one<'r, S: SceneSpace>(
     types: &Types<'r, S>,
     (bodies, joints): (&Bodies<S>, &JointNames<'_, 'r, S>),
     domains: &mut Vec<Domain>,
-    findings: &mut Findings,
 ) -> JointRead<'r, S> {
     let mut read = JointRead::new(name, JointKind::Unknown, &table);
-    let Some(scene_type) = element::scene_type(&mut table, types, findings) else {
-        connection::check_names(&mut table, &bodies.names, findings);
+    let Some(scene_type) = element::scene_type(&mut table, types) else {
+        connection::check_names(&mut table, &bodies.names);
         return read;
     };
-    read.is_active = active::read(&table, findings);
+    read.is_active = active::read(&table);
     let references = References {
         bodies,
         joints,
@@ -87,22 +84,21 @@ fn one<'r, S: SceneSpace>(
     let (element, functions, arguments);
     if scene_type == COUPLING {
         read.kind = JointKind::Coupling;
-        element = coupling::read(&mut table, &references, findings);
+        element = coupling::read(&mut table, &references);
         (functions, arguments) = (Vec::new(), Vec::new());
     } else {
         let definitions: Vec<_> = types.registry.constraints(scene_type).collect();
-        let Some(found) = element::read(&mut table, &definitions, &references, domains, findings)
-        else {
-            tolerance::read(&mut table, &tolerance::OF_JOINT, findings);
-            element::end(table, name, read.is_active, findings);
+        let Some(found) = element::read(&mut table, &definitions, &references, domains) else {
+            tolerance::read(&mut table, &tolerance::OF_JOINT);
+            element::end(table, name, read.is_active);
             return read;
         };
         read.kind = JointKind::Defined(found.definition);
         element = found.element;
         (functions, arguments) = (found.arguments.functions, found.arguments.values);
     }
-    let tolerance = tolerance::read(&mut table, &tolerance::OF_JOINT, findings);
-    let entry = element::end(table, name, read.is_active, findings);
+    let tolerance = tolerance::read(&mut table, &tolerance::OF_JOINT);
+    let entry = element::end(table, name, read.is_active);
     read.complete = element.map(|(bodies, element)| CompleteJoint {
         joint: Joint {
             name: name.to_owned(),

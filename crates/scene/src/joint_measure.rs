@@ -1,7 +1,5 @@
 //! Measures of joints: a drive prescribes one, a coupling relates two, a spring acts on an angle.
 
-use std::ops::Range;
-
 use joints::Argument;
 use joints::spec::Measure;
 use model::coupling::Measured;
@@ -9,7 +7,7 @@ use model::registry::{ConstraintDefinition, DriveDefinition};
 use model::{BodyRef, Force, Function, Law};
 
 use crate::dimension::Dimension;
-use crate::findings::Findings;
+use crate::field::Field;
 use crate::joint_read::{JointKind, JointRead};
 use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
@@ -68,14 +66,15 @@ pub(crate) struct JointMeasure<'j, 'r, S: SceneSpace> {
 
 impl<'r, S: SceneSpace> JointRead<'r, S> {
     /// The measure of this name, or the first one that is suitable. Returns `None` and reports at
-    /// the place of a table, by its description, if there is none.
+    /// a field if there is none.
     pub(crate) fn measure(
         &self,
         name: Option<&str>,
         purpose: Purpose,
-        (subject, at): (&str, Range<usize>),
-        findings: &mut Findings,
+        field: &Field,
     ) -> Option<JointMeasure<'_, 'r, S>> {
+        let (findings, at) = (field.findings, field.span());
+        let subject = &field.subject;
         let definition = match self.kind {
             JointKind::Unknown => return None,
             JointKind::Defined(definition) => definition,
@@ -161,28 +160,18 @@ impl<S: SceneSpace> JointMeasure<'_, '_, S> {
 
     /// The bodies of the joint and the rows that prescribe the measure. The joint accepted these
     /// arguments, so only a definition that is registered wrongly is reported.
-    pub(crate) fn rows(
-        &self,
-        (subject, at): (&str, Range<usize>),
-        findings: &mut Findings,
-    ) -> Option<Measured<S>> {
+    pub(crate) fn rows(&self, field: &Field) -> Option<Measured<S>> {
         let (bodies, arguments) = self.arguments()?;
         let built = (self.drive.build)(&arguments);
-        let element = built.map_err(|error| refuse(subject, at, &error, findings));
+        let element = built.map_err(|error| refuse(field, &error));
         Some((bodies, element.ok()?))
     }
 
     /// The force that follows a law along the measure.
-    pub(crate) fn force(
-        &self,
-        name: &str,
-        law: Law,
-        (subject, at): (&str, Range<usize>),
-        findings: &mut Findings,
-    ) -> Option<Force<S>> {
+    pub(crate) fn force(&self, name: &str, law: Law, field: &Field) -> Option<Force<S>> {
         let (bodies, arguments) = self.arguments()?;
         let built = (self.drive.law)(&arguments, law);
-        let element = built.map_err(|error| refuse(subject, at, &error, findings));
+        let element = built.map_err(|error| refuse(field, &error));
         Some(Force {
             name: name.to_owned(),
             bodies,
@@ -192,16 +181,11 @@ impl<S: SceneSpace> JointMeasure<'_, '_, S> {
     }
 }
 
-fn refuse(
-    subject: &str,
-    at: Range<usize>,
-    error: &impl std::fmt::Display,
-    findings: &mut Findings,
-) {
-    findings.error(
+fn refuse(field: &Field, error: &impl std::fmt::Display) {
+    field.findings.error(
         Mistake::Registry,
-        at,
-        format!("{subject}: {error}"),
+        field.span(),
+        format!("{}: {error}", field.subject),
         "not possible",
     );
 }

@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use crate::bodies::Bodies;
 use crate::field::{Field, all};
-use crate::findings::Findings;
 use crate::joint_measure::{JointMeasure, Purpose};
 use crate::joint_read::JointRead;
 use crate::mistake::Mistake;
@@ -41,14 +40,13 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         name: &str,
         field: &Field,
         (purpose, is_active): (Purpose, bool),
-        findings: &mut Findings,
     ) -> Option<&'j JointRead<'r, S>> {
         let Some(joint) = self.by_name.get(name).copied() else {
-            self.unknown(name, field, findings);
+            self.unknown(name, field);
             return None;
         };
         if is_active && !joint.is_active {
-            findings.collision(
+            field.findings.collision(
                 Mistake::Inactive,
                 field.span(),
                 format!(
@@ -64,19 +62,19 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         Some(joint)
     }
 
-    fn unknown(&self, name: &str, field: &Field, findings: &mut Findings) {
+    fn unknown(&self, name: &str, field: &Field) {
         let names = || self.list.iter().map(|joint| joint.name.as_str());
-        let near = findings.suggest(name, names());
+        let near = field.findings.suggest(name, names());
         let near = near.and_then(|near| self.by_name.get(near));
         let label = match near {
             Some(near) => format!(
                 "no such joint; `{}` is defined on line {}",
                 near.name,
-                findings.line(near.span.start)
+                field.findings.line(near.span.start)
             ),
             None => "no such joint".to_owned(),
         };
-        findings.error_with_help(
+        field.findings.error_with_help(
             Mistake::UnknownJoint,
             field.span(),
             format!("{} refers to the unknown joint `{name}`", field.subject),
@@ -93,10 +91,9 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         &self,
         field: &Field,
         usage: (Purpose, bool),
-        findings: &mut Findings,
     ) -> Option<&'j JointRead<'r, S>> {
-        let name = field.text("the name of a joint", findings)?;
-        self.find(name, field, usage, findings)
+        let name = field.text("the name of a joint")?;
+        self.find(name, field, usage)
     }
 
     /// Two joints.
@@ -105,11 +102,10 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         field: &Field,
         expected: &str,
         usage: (Purpose, bool),
-        findings: &mut Findings,
     ) -> Option<[&'j JointRead<'r, S>; 2]> {
-        pair(field, expected, findings, |item, findings| {
-            let name = item.text(expected, findings)?;
-            self.find(name, item, usage, findings)
+        pair(field, expected, |item| {
+            let name = item.text(expected)?;
+            self.find(name, item, usage)
         })
     }
 
@@ -119,12 +115,11 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         field: &Field,
         expected: &str,
         usage: (Purpose, bool),
-        findings: &mut Findings,
     ) -> Option<[JointMeasure<'j, 'r, S>; 2]> {
-        pair(field, expected, findings, |item, findings| {
-            let text = item.text(expected, findings)?;
+        pair(field, expected, |item| {
+            let text = item.text(expected)?;
             let Some((name, measure)) = text.rsplit_once('.') else {
-                findings.error(
+                field.findings.error(
                     Mistake::UnknownMeasure,
                     item.span(),
                     format!("{}: `{text}` is not a measure of a joint", item.subject),
@@ -132,24 +127,18 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
                 );
                 return None;
             };
-            let joint = self.find(name, item, usage, findings)?;
-            let place = (&*item.subject, item.span());
-            joint.measure(Some(measure), usage.0, place, findings)
+            let joint = self.find(name, item, usage)?;
+            joint.measure(Some(measure), usage.0, item)
         })
     }
 }
 
 /// Both values of a list of two.
-fn pair<T>(
-    field: &Field,
-    expected: &str,
-    findings: &mut Findings,
-    mut read: impl FnMut(&Field, &mut Findings) -> Option<T>,
-) -> Option<[T; 2]> {
-    let items = field.items(expected, findings)?;
+fn pair<T>(field: &Field, expected: &str, read: impl Fn(&Field) -> Option<T>) -> Option<[T; 2]> {
+    let items = field.items(expected)?;
     if items.len() != 2 {
-        field.miscount(expected, items.len(), 2, findings);
+        field.miscount(expected, items.len(), 2);
         return None;
     }
-    all(&items, |item| read(item, findings))?.try_into().ok()
+    all(&items, read)?.try_into().ok()
 }

@@ -3,7 +3,6 @@
 use model::{Measure, MeasureKind, SpaceKind};
 
 use crate::body::GROUND;
-use crate::findings::Findings;
 use crate::key::{Key, TYPE, Takes};
 use crate::marker::Markers;
 use crate::mistake::Mistake;
@@ -52,12 +51,11 @@ pub(crate) fn read(
     name: &str,
     space: SpaceKind,
     markers: &Markers,
-    findings: &mut Findings,
 ) -> Option<(Measure, Entry)> {
-    let kind = kind(&mut table, space, findings);
-    let between = between(&mut table, markers, findings);
+    let kind = kind(&mut table, space);
+    let between = between(&mut table, markers);
     let entry = Entry::of(name, &table);
-    table.close(findings);
+    table.close();
     let measure = Measure {
         name: name.to_owned(),
         kind: kind?,
@@ -66,13 +64,13 @@ pub(crate) fn read(
     Some((measure, entry))
 }
 
-fn kind(table: &mut Table, space: SpaceKind, findings: &mut Findings) -> Option<MeasureKind> {
-    let field = table.required(&KIND, findings)?;
-    let name = field.text(KIND.expected, findings)?;
+fn kind(table: &mut Table, space: SpaceKind) -> Option<MeasureKind> {
+    let field = table.required(&KIND)?;
+    let name = field.text(KIND.expected)?;
     let mut known = MeasureKind::ALL.into_iter();
     let found = known.find(|kind| kind.name() == name && kind.exists_in(space));
     if found.is_none() {
-        findings.error_with_help(
+        table.findings.error_with_help(
             Mistake::UnknownType,
             field.span(),
             format!("{} has the unknown type `{name}`", table.subject),
@@ -87,22 +85,18 @@ fn kind(table: &mut Table, space: SpaceKind, findings: &mut Findings) -> Option<
 }
 
 /// Indices of the markers; `None` is the ground.
-fn between(
-    table: &mut Table,
-    markers: &Markers,
-    findings: &mut Findings,
-) -> Option<[Option<usize>; 2]> {
-    let field = table.required(&MARKERS, findings)?;
-    let items = field.items(MARKERS.expected, findings)?;
+fn between(table: &mut Table, markers: &Markers) -> Option<[Option<usize>; 2]> {
+    let field = table.required(&MARKERS)?;
+    let items = field.items(MARKERS.expected)?;
     if !(1..=2).contains(&items.len()) {
-        field.miscount(MARKERS.expected, items.len(), 2, findings);
+        field.miscount(MARKERS.expected, items.len(), 2);
         return None;
     }
     let read = items
         .iter()
         .map(|item| match item.value.get_ref().as_str() {
             Some(GROUND) => Some(None),
-            _ => markers.index(item, findings).map(Some),
+            _ => markers.index(item).map(Some),
         });
     let read: Vec<Option<Option<usize>>> = read.collect();
     let between = match read[..] {
@@ -110,6 +104,6 @@ fn between(
         [first, second] => [first?, second?],
         _ => return None,
     };
-    plausible::measure(&field, between, &markers.list, findings);
+    plausible::measure(&field, between, &markers.list);
     Some(between)
 }

@@ -54,7 +54,7 @@ impl Names {
     }
 
     /// Reports measures with the name of another column of the trajectory.
-    fn check_columns(&self, findings: &mut Findings) {
+    fn check_columns(&self, findings: &Findings) {
         let columns = self.space.columns();
         let measures: HashSet<&str> = self.measures.iter().map(|m| m.name.as_str()).collect();
         let places = self.bodies.iter().map(|place| place.name.as_str());
@@ -76,7 +76,7 @@ impl Names {
     }
 
     /// Reports names that are used twice, and `ground`.
-    pub(crate) fn check(&self, map: &SourceMap, findings: &mut Findings) {
+    pub(crate) fn check(&self, map: &SourceMap, findings: &Findings) {
         for used in self.bodies.iter().chain(&self.elements) {
             if used.name == GROUND {
                 findings.error(

@@ -9,7 +9,6 @@ use crate::body::SceneBody;
 use crate::combination::{ReactionNames, Reactions};
 use crate::drive::{self, Action, DriveRead};
 use crate::element::Types;
-use crate::findings::Findings;
 use crate::force;
 use crate::function::Domain;
 use crate::joint;
@@ -35,46 +34,38 @@ pub(crate) struct Parts<'r, S: SceneBody> {
 
 impl<'r, S: SceneBody> Parts<'r, S> {
     /// Reads all parts.
-    pub(crate) fn read(root: &mut Table, registry: &'r Registry, findings: &mut Findings) -> Self {
+    pub(crate) fn read(root: &mut Table, registry: &'r Registry) -> Self {
         let mut names = Names::of(S::KIND);
         let mut bodies = Bodies::default();
-        for (table, name) in tables(root, &section::BODY, findings) {
+        for (table, name) in tables(root, &section::BODY) {
             names.bodies.push(Use::of(&name, &table));
-            bodies.read(table, &name, findings);
+            bodies.read(table, &name);
         }
-        for (table, name) in tables(root, &section::MARKER, findings) {
+        for (table, name) in tables(root, &section::MARKER) {
             names.bodies.push(Use::of(&name, &table));
-            bodies
-                .markers
-                .read::<S>(table, &name, &bodies.names, findings);
+            bodies.markers.read::<S>(table, &name, &bodies.names);
         }
         let mut measures = Vec::new();
-        for (table, name) in tables(root, &section::MEASURE, findings) {
+        for (table, name) in tables(root, &section::MEASURE) {
             names.bodies.push(Use::of(&name, &table));
             names.measures.push(Use::of(&name, &table));
-            measures.extend(measure::read(
-                table,
-                &name,
-                S::KIND,
-                &bodies.markers,
-                findings,
-            ));
+            measures.extend(measure::read(table, &name, S::KIND, &bodies.markers));
         }
         let mut domains = Vec::new();
-        let found = tables(root, &section::JOINT, findings);
+        let found = tables(root, &section::JOINT);
         let used = found.iter().map(|(table, name)| Use::of(name, table));
         names.elements.extend(used);
         let types = Types::of_joints(registry);
-        let mut joints = joint::read(found, &types, &bodies, &mut domains, findings);
+        let mut joints = joint::read(found, &types, &bodies, &mut domains);
         let references = References {
             bodies: &bodies,
             joints: &JointNames::of(&joints),
             is_active: true,
         };
         let (mut drives, mut forces, mut replaced) = (Vec::new(), Vec::new(), HashSet::new());
-        for (table, name) in tables(root, &section::DRIVE, findings) {
+        for (table, name) in tables(root, &section::DRIVE) {
             names.elements.push(Use::of(&name, &table));
-            let mut read = drive::read(table, &name, references.joints, &mut domains, findings);
+            let mut read = drive::read(table, &name, references.joints, &mut domains);
             replaced.extend(read.in_place_of.take());
             match read.action {
                 Action::Motion(_) => drives.push(read),
@@ -82,9 +73,9 @@ impl<'r, S: SceneBody> Parts<'r, S> {
             }
         }
         let types = Types::of_forces(registry);
-        for (table, name) in tables(root, &section::FORCE, findings) {
+        for (table, name) in tables(root, &section::FORCE) {
             names.elements.push(Use::of(&name, &table));
-            let force = force::read(table, &name, &types, &references, &mut domains, findings);
+            let force = force::read(table, &name, &types, &references, &mut domains);
             forces.extend(force);
         }
         joints.retain(|joint| !replaced.contains(&joint.name));

@@ -12,7 +12,6 @@ use crate::bodies::Bodies;
 use crate::connection::listed;
 use crate::dimension::Dimension;
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::marker::Markers;
 use crate::mistake::Mistake;
 use crate::nearest::list;
@@ -66,7 +65,6 @@ pub(crate) fn read<S: SceneSpace>(
     spec: &'static Spec,
     (of, slots): (&[usize], &[Option<BodyRef>]),
     bodies: &Bodies<S>,
-    findings: &mut Findings,
 ) -> Place<S> {
     let missing = |span| Place {
         points: vec![None; of.len()],
@@ -79,7 +77,7 @@ pub(crate) fn read<S: SceneSpace>(
     let (at, local) = (table.optional(AT), table.optional(local_key));
     match (at, local) {
         (Some(at), Some(local)) => {
-            findings.collision(
+            table.findings.collision(
                 Mistake::Exclusive,
                 local.span(),
                 format!("{} takes `at` or `{local_key}`, not both", table.subject),
@@ -90,16 +88,16 @@ pub(crate) fn read<S: SceneSpace>(
             missing(local.span())
         }
         (Some(at), None) => Place {
-            points: global(&at, spec, of, slots, bodies, findings),
+            points: global(&at, spec, of, slots, bodies),
             span: at.span(),
         },
         (None, Some(local)) => Place {
             points: match local_key {
                 POINT => {
                     let body = slots.get(of[0]).copied().flatten();
-                    of_body(&local, of.len(), body, bodies, findings)
+                    of_body(&local, of.len(), body, bodies)
                 }
-                _ => by_body(&local, of, slots, bodies, findings),
+                _ => by_body(&local, of, slots, bodies),
             },
             span: local.span(),
         },
@@ -108,7 +106,7 @@ pub(crate) fn read<S: SceneSpace>(
             if spec.points_apart {
                 form = format!("[{form}, …]");
             }
-            findings.error(
+            table.findings.error(
                 Mistake::Missing,
                 table.header.clone(),
                 format!(
@@ -130,26 +128,19 @@ fn global<S: SceneSpace>(
     of: &[usize],
     slots: &[Option<BodyRef>],
     bodies: &Bodies<S>,
-    findings: &mut Findings,
 ) -> Vec<Option<S::Vector<f64>>> {
     let fields = if spec.points_apart {
         let expected = format!("{} global points [{}, …]", of.len(), S::VECTOR);
-        several(at, of.len(), &expected, &bodies.markers, findings)
+        several(at, of.len(), &expected, &bodies.markers)
     } else {
         Some(vec![at.clone()])
     };
     let fields = fields.unwrap_or_default();
-    let read = |field: &Field| point(field, S::GLOBAL_POINT, bodies, findings);
+    let read = |field: &Field| point(field, S::GLOBAL_POINT, bodies);
     let read: Vec<_> = fields.iter().map(read).collect();
     let local = |(k, &slot): (usize, &usize)| {
         let body = slots.get(slot).copied().flatten()?;
-        local(
-            at,
-            read.get(k).or(read.first())?.as_ref()?,
-            body,
-            bodies,
-            findings,
-        )
+        local(at, read.get(k).or(read.first())?.as_ref()?, body, bodies)
     };
     of.iter().enumerate().map(local).collect()
 }
@@ -160,7 +151,6 @@ fn local<S: SceneSpace>(
     point: &Point<S>,
     body: BodyRef,
     bodies: &Bodies<S>,
-    findings: &mut Findings,
 ) -> Option<S::Vector<f64>> {
     let local = match *point {
         Point::Of(marker) if marker.body == body => bodies.place_of(marker),
@@ -168,7 +158,7 @@ fn local<S: SceneSpace>(
         Point::At(point) => bodies.to_local(body, point),
     };
     if !S::point(local).iter().all(|x| is_usable(*x)) {
-        findings.error(Mistake::NotFinite,
+        at.findings.error(Mistake::NotFinite,
             at.span(),
             format!(
                 "{}: `at` and the position of `{}` are too far apart: their difference is not a finite number up to {LARGEST:e}",
@@ -193,12 +183,11 @@ fn point<'b, S: SceneSpace>(
     field: &Field,
     expected: &str,
     bodies: &'b Bodies<S>,
-    findings: &mut Findings,
 ) -> Option<Point<'b, S>> {
     if bodies.markers.may_be(field) {
-        return bodies.markers.find(field, findings).map(Point::Of);
+        return bodies.markers.find(field).map(Point::Of);
     }
-    let point = field.vector::<S>(expected, Dimension::LENGTH, findings);
+    let point = field.vector::<S>(expected, Dimension::LENGTH);
     point.map(Point::At)
 }
 
@@ -208,14 +197,13 @@ fn several<'t>(
     n: usize,
     expected: &str,
     markers: &Markers,
-    findings: &mut Findings,
 ) -> Option<Vec<Field<'t>>> {
-    let items = field.items(expected, findings)?;
+    let items = field.items(expected)?;
     let is_point = |item: &Field| item.value.get_ref().is_array() || markers.may_be(item);
     if items.len() == n && items.iter().all(is_point) {
         return Some(items);
     }
-    field.miscount(expected, items.len(), n, findings);
+    field.miscount(expected, items.len(), n);
     None
 }
 
@@ -225,7 +213,6 @@ fn of_body<S: SceneSpace>(
     n: usize,
     body: Option<BodyRef>,
     bodies: &Bodies<S>,
-    findings: &mut Findings,
 ) -> Vec<Option<S::Vector<f64>>> {
     let fields = match n {
         1 => Some(vec![field.clone()]),
@@ -234,20 +221,19 @@ fn of_body<S: SceneSpace>(
             n,
             &format!("{n} points [{}, …]", S::VECTOR),
             &bodies.markers,
-            findings,
         ),
     };
     let Some(fields) = fields else {
         return vec![None; n];
     };
     let mut local = |field: &Field| {
-        let read = point(field, S::POINT, bodies, findings)?;
+        let read = point(field, S::POINT, bodies)?;
         let body = body?;
         match read {
             Point::At(point) => Some(bodies.about_centre(body, point)),
             Point::Of(marker) if marker.body == body => Some(bodies.place_of(marker)),
             Point::Of(marker) => {
-                bodies.foreign(marker, body, field, findings);
+                bodies.foreign(marker, body, field);
                 None
             }
         }
@@ -261,10 +247,9 @@ fn by_body<S: SceneSpace>(
     of: &[usize],
     slots: &[Option<BodyRef>],
     bodies: &Bodies<S>,
-    findings: &mut Findings,
 ) -> Vec<Option<S::Vector<f64>>> {
     let mut points = vec![None; of.len()];
-    let Some(table) = field.table(S::BY_BODY, findings) else {
+    let Some(table) = field.table(S::BY_BODY) else {
         return points;
     };
     // If a name is missing, it cannot be decided which keys are right.
@@ -293,7 +278,7 @@ fn by_body<S: SceneSpace>(
             .filter(|&k| bodies.names.name(owners[k]) == value.key)
             .collect();
         if mine.is_empty() {
-            findings.error_with_help(
+            field.findings.error_with_help(
                 Mistake::UnknownKey,
                 key.clone(),
                 format!(
@@ -309,13 +294,13 @@ fn by_body<S: SceneSpace>(
             continue;
         }
         let body = mine.first().map(|k| owners[*k]);
-        let read = of_body(value, mine.len(), body, bodies, findings);
+        let read = of_body(value, mine.len(), body, bodies);
         for (k, point) in mine.iter().zip(read) {
             points[*k] = point;
         }
     }
     for name in missing {
-        findings.error(
+        field.findings.error(
             Mistake::Missing,
             table.header.clone(),
             format!("{} needs the point of `{name}`", table.subject),

@@ -95,24 +95,24 @@ fn checked(
     registry: &Registry,
 ) -> Result<(Scene, Mechanism), Vec<Diagnostic>> {
     let source = SourceText::new(source_name, text);
-    let mut findings = Findings::new(&source);
+    let findings = Findings::new(&source);
     if let Some(excess) = limits::excess(text) {
         findings.error(Mistake::TooLarge, excess.span, excess.message, excess.label);
         return Err(findings.sorted());
     }
     let (root, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
-        syntax::report(&errors, &mut findings);
+        syntax::report(&errors, &findings);
         return Err(findings.sorted());
     }
     let plain = Language::PLAIN;
-    let mut whole = Table::new("the scene", 0..0, root.get_ref(), &plain);
-    let language = Language::read(&mut whole, &mut findings);
-    let whole = Table::new("the scene", 0..0, root.get_ref(), &language);
+    let mut whole = Table::new("the scene", 0..0, root.get_ref(), (&plain, &findings));
+    let language = Language::read(&mut whole);
+    let whole = Table::new("the scene", 0..0, root.get_ref(), (&language, &findings));
     let mut scene = if is_spatial(root.get_ref()) {
-        document::<Space3>(whole, registry, &mut findings)
+        document::<Space3>(whole, registry)
     } else {
-        document::<Plane>(whole, registry, &mut findings)
+        document::<Plane>(whole, registry)
     };
     scene.units = language.units;
     let unit = language.length_unit();
@@ -120,7 +120,7 @@ fn checked(
     // Large compared with what was read from it.
     drop(root);
     let mechanism = match &scene.source {
-        Some(source) => check(&scene.description, source, unit, &mut findings),
+        Some(source) => check(&scene.description, source, unit, &findings),
         None => None,
     };
     scene.take_out_inactive();
@@ -133,30 +133,31 @@ fn checked(
 }
 
 /// Reads all sections. The result may be used only if no problem was found.
-fn document<S: SceneBody>(mut root: Table, registry: &Registry, findings: &mut Findings) -> Scene {
+fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
+    let findings = root.findings;
     let mut sections = BTreeMap::new();
-    let head = section(&mut root, &section::SCENE, &mut sections, findings);
+    let head = section(&mut root, &section::SCENE, &mut sections);
     if head.is_none() && root.optional(section::SCENE.name).is_none() {
         let message = "the scene needs the section `[scene]`";
         let label = "`[scene]` is missing in this file";
-        root.lacks(section::SCENE.name, message, label, findings);
+        root.lacks(section::SCENE.name, message, label);
     }
-    let heading = head.map_or_else(Heading::<S>::default, |head| Heading::read(head, findings));
-    section(&mut root, &section::PARAMETERS, &mut sections, findings);
-    let mut parts = Parts::<S>::read(&mut root, registry, findings);
-    let (groups, group_entries) = groups(&mut root, &mut parts, findings);
-    let start = section(&mut root, &section::START, &mut sections, findings)
-        .map(|table| start::read::<S>(table, &parts.bodies.names, findings));
-    let output = section(&mut root, &section::OUTPUT, &mut sections, findings)
-        .map(|table| reactions::output(table, &parts.reactions(Participation::Active), findings));
-    let simulate = section(&mut root, &section::SIMULATE, &mut sections, findings)
-        .and_then(|table| simulate::read(table, findings));
+    let heading = head.map_or_else(Heading::<S>::default, |head| Heading::read(head));
+    section(&mut root, &section::PARAMETERS, &mut sections);
+    let mut parts = Parts::<S>::read(&mut root, registry);
+    let (groups, group_entries) = groups(&mut root, &mut parts);
+    let start = section(&mut root, &section::START, &mut sections)
+        .map(|table| start::read::<S>(table, &parts.bodies.names));
+    let output = section(&mut root, &section::OUTPUT, &mut sections)
+        .map(|table| reactions::output(table, &parts.reactions(Participation::Active)));
+    let simulate = section(&mut root, &section::SIMULATE, &mut sections)
+        .and_then(|table| simulate::read(table));
     if parts.bodies.list.is_empty() {
         let label = "no `[[body]]` in this scene";
         let message = BuildError::NoBodies.to_string();
-        root.lacks(section::BODY.name, message, label, findings);
+        root.lacks(section::BODY.name, message, label);
     }
-    root.close(findings);
+    root.close();
     if let Some(simulate) = &simulate {
         simulate.check_domains(&parts.domains, findings);
         if let Some(rows) = parts.rows() {
@@ -213,12 +214,8 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry, findings: &mut F
 }
 
 /// Groups with their places.
-fn groups<S: SceneBody>(
-    root: &mut Table,
-    parts: &mut Parts<S>,
-    findings: &mut Findings,
-) -> (Vec<GroupRequest>, Vec<Entry>) {
-    let found = tables(root, &section::GROUP, findings);
+fn groups<S: SceneBody>(root: &mut Table, parts: &mut Parts<S>) -> (Vec<GroupRequest>, Vec<Entry>) {
+    let found = tables(root, &section::GROUP);
     let mut entries = Vec::with_capacity(found.len());
     parts.names.groups = found.iter().map(|(t, name)| Use::of(name, t)).collect();
     if found.is_empty() {
@@ -230,11 +227,11 @@ fn groups<S: SceneBody>(
     );
     let mut groups = Vec::with_capacity(found.len());
     for (mut table, name) in found {
-        let is_active = active::read(&table, findings);
+        let is_active = active::read(&table);
         table.optional(&ACTIVE);
         entries.push(Entry::switched(&name, &table, is_active));
         let names = if is_active { &active } else { &all };
-        groups.extend(reactions::group(table, &name, names, findings));
+        groups.extend(reactions::group(table, &name, names));
     }
     (groups, entries)
 }
@@ -246,7 +243,7 @@ fn check(
     description: &AnyDescription,
     source: &SourceMap,
     unit: LengthUnit,
-    findings: &mut Findings,
+    findings: &Findings,
 ) -> Option<Mechanism> {
     let errors = match Mechanism::build(description) {
         Ok(built) => {

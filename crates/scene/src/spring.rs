@@ -6,7 +6,6 @@ use model::law::{Join, Law, Operation};
 use model::{Force, SpaceKind};
 
 use crate::dimension::Dimension;
-use crate::findings::Findings;
 use crate::joint_measure::Purpose;
 use crate::joint_name::References;
 use crate::key::{Interval, Key, TYPE, Takes};
@@ -41,45 +40,38 @@ pub(crate) fn read<S: SceneSpace>(
     table: &mut Table,
     name: &str,
     references: &References<'_, '_, '_, S>,
-    findings: &mut Findings,
 ) -> Option<Force<S>> {
     let usage = (Purpose::Spring, references.is_active);
     let _ = table.optional(TYPE);
-    let joint = table.required(&OF, findings);
-    let joint = joint.and_then(|field| {
-        let joint = references.joints.one(&field, usage, findings)?;
-        Some((joint, field.span()))
-    });
+    let of = table.required(&OF);
+    let joint = of
+        .as_ref()
+        .and_then(|field| references.joints.one(field, usage));
     let measure = table.optional(&MEASURE);
     let [stiffness, damping] = [
         (&STIFFNESS, Unit::TorsionStiffness),
         (&DAMPING, Unit::TorsionDamping),
     ]
     .map(|(key, unit)| {
-        let field = table.required(key, findings)?;
-        field.number(unit.into(), findings)
+        let field = table.required(key)?;
+        field.number(unit.into())
     });
     let free = table
         .optional(&FREE_ANGLE)
-        .map(|field| field.number(Dimension::ANGLE, findings));
-    let (joint, mut at) = joint?;
-    let mut asked = None;
-    if let Some(field) = measure {
-        asked = Some(field.text(MEASURE.expected, findings)?);
-        at = field.span();
-    }
-    let angle = joint.measure(
-        asked,
-        Purpose::Spring,
-        (&table.subject, at.clone()),
-        findings,
-    )?;
+        .map(|field| field.number(Dimension::ANGLE));
+    let (joint, of) = (joint?, of?);
+    let asked = match &measure {
+        Some(field) => Some(field.text(MEASURE.expected)?),
+        None => None,
+    };
+    let field = measure.as_ref().unwrap_or(&of);
+    let angle = joint.measure(asked, Purpose::Spring, field)?;
     let (stiffness, damping) = (stiffness?, damping?);
     let law = match free {
         Some(free) => law(stiffness, damping, free?),
         None => law(stiffness, damping, 0.0).map(Law::since_start),
     };
-    angle.force(name, law?, (&table.subject, at), findings)
+    angle.force(name, law?, field)
 }
 
 /// −(k·(angle − free) + c·rate)

@@ -28,6 +28,8 @@ pub(crate) struct Table<'t> {
     entries: &'t DeTable<'t>,
     /// What its numbers mean.
     language: &'t Language,
+    /// Where problems are reported.
+    pub(crate) findings: &'t Findings<'t>,
     known: Vec<&'static str>,
     /// Keys that are missing, with the index of the problem in the findings.
     missing: Vec<(&'static str, usize)>,
@@ -40,13 +42,14 @@ impl<'t> Table<'t> {
         subject: impl Into<Rc<str>>,
         header: Range<usize>,
         entries: &'t DeTable<'t>,
-        language: &'t Language,
+        (language, findings): (&'t Language, &'t Findings<'t>),
     ) -> Self {
         Self {
             subject: subject.into(),
             header,
             entries,
             language,
+            findings,
             known: Vec::new(),
             missing: Vec::new(),
             by_space: Vec::new(),
@@ -76,12 +79,13 @@ impl<'t> Table<'t> {
             key: Cow::Borrowed(key),
             value,
             language: self.language,
+            findings: self.findings,
         })
     }
 
     /// The value of a required key.
-    pub(crate) fn required(&mut self, key: &Key, findings: &mut Findings) -> Option<Field<'t>> {
-        self.needed(key.name, key.expected, findings)
+    pub(crate) fn required(&mut self, key: &Key) -> Option<Field<'t>> {
+        self.needed(key.name, key.expected)
     }
 
     /// The value of a required key whose type is stated by a definition.
@@ -89,12 +93,11 @@ impl<'t> Table<'t> {
         &mut self,
         key: &'static str,
         expected: impl Display,
-        findings: &mut Findings,
     ) -> Option<Field<'t>> {
         let field = self.optional(key);
         if field.is_none() {
             let message = format!("{} needs the key `{key}`: {expected}", self.subject);
-            self.lacks(key, message, format!("`{key}` is missing here"), findings);
+            self.lacks(key, message, format!("`{key}` is missing here"));
         }
         field
     }
@@ -105,10 +108,10 @@ impl<'t> Table<'t> {
         key: &'static str,
         message: impl Into<String>,
         label: impl Into<String>,
-        findings: &mut Findings,
     ) {
-        self.missing.push((key, findings.next()));
-        findings.error(Mistake::Missing, self.header.clone(), message, label);
+        self.missing.push((key, self.findings.next()));
+        self.findings
+            .error(Mistake::Missing, self.header.clone(), message, label);
     }
 
     /// All keys with their values, for tables whose keys are names.
@@ -120,6 +123,7 @@ impl<'t> Table<'t> {
                 key: Cow::Borrowed(name),
                 value,
                 language: self.language,
+                findings: self.findings,
             };
             (key.span(), field)
         };
@@ -154,7 +158,7 @@ impl<'t> Table<'t> {
 
     /// Reports unknown keys. An unknown key that is similar to a missing key is reported together
     /// with it.
-    pub(crate) fn close(self, findings: &mut Findings) {
+    pub(crate) fn close(self) {
         let known = || self.known.iter().copied();
         for key in self.entries.keys() {
             let name = key.get_ref();
@@ -169,9 +173,9 @@ impl<'t> Table<'t> {
                 (None, None) => "unknown key".to_owned(),
             };
             if let Some((_, problem)) = self.missing.iter().find(|(key, _)| near == Some(key)) {
-                findings.explain(*problem);
+                self.findings.explain(*problem);
             }
-            findings.error_with_help(
+            self.findings.error_with_help(
                 Mistake::UnknownKey,
                 key.span(),
                 format!("{} has no key `{name}`", self.subject),

@@ -34,12 +34,7 @@ const STEEL: f64 = 7850.0;
 const FARTHEST: f64 = 100.0;
 
 /// Warns of what is not plausible in a mechanism.
-pub(crate) fn check(
-    mechanism: &Mechanism,
-    map: &SourceMap,
-    unit: LengthUnit,
-    findings: &mut Findings,
-) {
+pub(crate) fn check(mechanism: &Mechanism, map: &SourceMap, unit: LengthUnit, findings: &Findings) {
     let records = mechanism.bodies();
     let joints = joints(mechanism);
     let bodies = bodies(mechanism, &joints);
@@ -139,7 +134,7 @@ fn size(records: &[BodyRecord], bodies: &[Shape]) -> Option<f64> {
 }
 
 /// Warns of bodies that no joint holds, if there are joints.
-fn unheld(records: &[BodyRecord], bodies: &[Shape], map: &SourceMap, findings: &mut Findings) {
+fn unheld(records: &[BodyRecord], bodies: &[Shape], map: &SourceMap, findings: &Findings) {
     if !bodies.iter().any(|body| body.is_held) {
         return;
     }
@@ -167,7 +162,7 @@ fn far(
     map: &SourceMap,
     size: Option<f64>,
     unit: LengthUnit,
-    findings: &mut Findings,
+    findings: &Findings,
 ) {
     let Some(size) = size else { return };
     for (joint, entry) in joints.iter().zip(&map.joints) {
@@ -207,7 +202,7 @@ fn inertia(
     map: &SourceMap,
     size: Option<f64>,
     unit: LengthUnit,
-    findings: &mut Findings,
+    findings: &Findings,
 ) {
     let Some(size) = size else { return };
     for ((body, shape), entry) in records.iter().zip(bodies).zip(&map.bodies) {
@@ -248,7 +243,7 @@ fn inertia(
 
 /// Warns of a body, such as a wheel, whose points are all at its centre of mass, if it is small in
 /// the mechanism and a ball of its mass and inertia is of no material.
-fn dense(body: &BodyRecord, entry: &Entry, size: f64, unit: LengthUnit, findings: &mut Findings) {
+fn dense(body: &BodyRecord, entry: &Entry, size: f64, unit: LengthUnit, findings: &Findings) {
     let Some(gyration) = gyration(body).filter(|radius| *radius < SMALL * size) else {
         return;
     };

@@ -9,7 +9,7 @@ use crate::units;
 /// Reports text that is not TOML, one error for each line. An error at the end of the text means
 /// that a bracket was never closed: only the first error shows where, and the others are its
 /// consequences.
-pub(super) fn report(errors: &[toml::de::Error], findings: &mut Findings) {
+pub(super) fn report(errors: &[toml::de::Error], findings: &Findings) {
     let text = findings.source.text();
     let end = text.trim_end().len();
     let start = |error: &toml::de::Error| error.span().map_or(0, |span| span.start);
@@ -46,7 +46,7 @@ struct Explanation {
 }
 
 impl Explanation {
-    fn report(self, findings: &mut Findings) {
+    fn report(self, findings: &Findings) {
         let (mistake, help) = (Mistake::NotToml, self.help);
         findings.error_with_help(mistake, self.span, self.message, self.label, help);
     }
