@@ -219,18 +219,10 @@ fn axis<S: SceneSpace>(
     };
     let span = span(table);
     if let Some(field) = field.as_ref().filter(|_| directions.has_own_axes()) {
-        table.findings.collision(
-            Mistake::Exclusive,
-            field.span(),
-            format!(
-                "{} takes `{key}` or `{}`, not both",
-                table.subject,
-                direction::AXES
-            ),
-            "and here for the first",
-            table.span_of(direction::AXES),
-            "the axis is given here for both bodies",
-        );
+        let axes = table.span_of(direction::AXES);
+        let first = (axes, "the axis is given here for both bodies");
+        let second = (field.span(), "and here for the first");
+        table.exclusive(format!("`{key}` or `{}`", direction::AXES), [first, second]);
         return (None, span);
     }
     let is_known = field.is_some() || directions.has_own_axes();

@@ -108,15 +108,10 @@ impl<'a> Bearings<'a> {
         let subject = &table.subject;
         let line = match (written, angle) {
             (Some(_), Some(angle)) => {
-                let message = format!(
-                    "{subject} takes `{key}` or `{}`, not both",
-                    PRESSURE_ANGLE.name
-                );
-                let (label, other) = ("and here by an angle", "the line of action is given here");
-                let mistake = Mistake::Exclusive;
-                table
-                    .findings
-                    .collision(mistake, angle.span(), message, label, at.clone(), other);
+                let first = (at.clone(), "the line of action is given here");
+                let second = (angle.span(), "and here by an angle");
+                let ways = format!("`{key}` or `{}`", PRESSURE_ANGLE.name);
+                table.exclusive(ways, [first, second]);
                 None
             }
             (Some(line), None) => direction(&line),

@@ -12,7 +12,6 @@ use crate::bodies::Bodies;
 use crate::connection::listed;
 use crate::direction;
 use crate::field::Field;
-use crate::mistake::Mistake;
 use crate::place::{self, AT};
 use crate::space::SceneSpace;
 use crate::table::Table;
@@ -87,14 +86,9 @@ impl<'b> Between<'b> {
         };
         for key in replaced(spec) {
             if let Some(other) = table.optional(key) {
-                table.findings.collision(
-                    Mistake::Exclusive,
-                    other.span(),
-                    format!("{} takes `{MARKERS}` or `{key}`, not both", table.subject),
-                    "and here once more",
-                    field.span(),
-                    "place and axes are those of the markers",
-                );
+                let first = (field.span(), "place and axes are those of the markers");
+                let second = (other.span(), "and here once more");
+                table.exclusive(format!("`{MARKERS}` or `{key}`"), [first, second]);
             }
         }
         Some(between)

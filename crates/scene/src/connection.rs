@@ -49,14 +49,9 @@ pub(crate) fn named(
     let wrong = |key: &str| format!("{} takes {expected}, not `{key}`", table.subject);
     match (one, two) {
         (Some(one), Some(two)) => {
-            table.findings.collision(
-                Mistake::Exclusive,
-                two.span(),
-                format!("{} takes {expected}, not both", table.subject),
-                "and here two bodies are given",
-                one.span(),
-                "here one body is given",
-            );
+            let first = (one.span(), "here one body is given");
+            let second = (two.span(), "and here two bodies are given");
+            table.exclusive(expected, [first, second]);
             None
         }
         (Some(one), None) if takes(1) => Some(vec![bodies.find(&one)]),
@@ -91,12 +86,7 @@ pub(crate) fn named(
             None
         }
         (None, None) => {
-            table.findings.error(
-                Mistake::Missing,
-                table.header.clone(),
-                format!("{} needs {expected}", table.subject),
-                "the bodies are missing here",
-            );
+            table.missing(format!(" needs {expected}"), "the bodies are missing here");
             None
         }
     }
@@ -175,12 +165,11 @@ pub(crate) fn choose(table: &mut Table, specs: &[&'static Spec], n_named: usize)
     let value = field.text(&expected)?;
     let chosen = variants().find(|(_, variant)| variant.value == value);
     if chosen.is_none() {
-        table.findings.error_with_help(
+        field.error_with_help(
             Mistake::UnknownChoice,
-            field.span(),
             format!(
-                "{}: `{}` must be one of {expected}, found `{value}`",
-                field.subject, field.key
+                ": `{}` must be one of {expected}, found `{value}`",
+                field.key
             ),
             "no such choice",
             did_you_mean(value, values()),

@@ -54,10 +54,9 @@ pub(crate) fn read<S: SceneSpace>(
     let measures = [x.rows(&field)?, y.rows(&field)?];
     let couple = S::couple(measures, &coefficients);
     let refuse = |error| {
-        table.findings.error(
+        field.error(
             Mistake::UnknownMeasure,
-            field.span(),
-            format!("{}: {error}", table.subject),
+            format!(": {error}"),
             "these cannot be coupled",
         );
     };

@@ -216,13 +216,9 @@ fn is_global(field: &Field) -> bool {
         return false;
     };
     if !FRAMES.contains(&text) {
-        field.findings.error_with_help(
+        field.error_with_help(
             Mistake::UnknownChoice,
-            field.span(),
-            format!(
-                "{}: `{}` must be {expected}, found `{text}`",
-                field.subject, field.key
-            ),
+            format!(": `{}` must be {expected}, found `{text}`", field.key),
             "no such choice",
             did_you_mean(text, FRAMES),
         );

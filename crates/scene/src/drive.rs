@@ -170,15 +170,9 @@ fn read_law(field: &Field, of: Option<Dimension>) -> Option<Law> {
         (Unit::Force.into(), FORCE.name)
     };
     if field.key != key {
-        field.findings.error_with_help(
+        field.error_with_help(
             Mistake::OtherLoad,
-            field.span(),
-            format!(
-                "{}: `{}` does not act along {}",
-                field.subject,
-                field.key,
-                of.words()
-            ),
+            format!(": `{}` does not act along {}", field.key, of.words()),
             "another kind of load is needed",
             format!("write `{key} = …`"),
         );

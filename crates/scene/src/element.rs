@@ -172,10 +172,9 @@ pub(crate) fn scene_type<S: SceneSpace>(
         },
     };
     let all = || format!("the types of a {} are {}", types.kind, types);
-    table.findings.error_with_help(
+    field.error_with_help(
         Mistake::UnknownType,
-        field.span(),
-        format!("{} has the unknown type `{name}`", table.subject),
+        format!(" has the unknown type `{name}`"),
         label,
         help.or_else(|| Some(all())),
     );

@@ -1,6 +1,7 @@
 //! One value of the file, read as the expected type. If it has another type, both are reported.
 
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::ops::Range;
 use std::rc::Rc;
 use std::slice;
@@ -46,6 +47,29 @@ impl<'t> Field<'t> {
         self.value.span()
     }
 
+    /// Reports an error at the value; the message continues the description of the table.
+    pub(crate) fn error(
+        &self,
+        code: impl Into<Code>,
+        message: impl Display,
+        label: impl Into<String>,
+    ) {
+        self.error_with_help(code, message, label, None);
+    }
+
+    /// Reports an error at the value with advice.
+    pub(crate) fn error_with_help(
+        &self,
+        code: impl Into<Code>,
+        message: impl Display,
+        label: impl Into<String>,
+        help: impl Into<Option<String>>,
+    ) {
+        let message = format!("{}{message}", self.subject);
+        let findings = self.findings;
+        findings.error_with_help(code, self.span(), message, label, help);
+    }
+
     /// Reports that a value of another kind was expected.
     pub(crate) fn mismatch(&self, expected: &str) {
         self.is_not(expected, Mistake::Type, None);
@@ -76,12 +100,10 @@ impl<'t> Field<'t> {
                     }
                 })
         };
-        self.findings.error_with_help(
+        self.error_with_help(
             mistake,
-            self.span(),
             format!(
-                "{}: `{}` must be {expected}, found {}",
-                self.subject,
+                ": `{}` must be {expected}, found {}",
                 self.key,
                 found(self.value.get_ref())
             ),
@@ -165,12 +187,11 @@ impl<'t> Field<'t> {
             return None;
         };
         if !is_usable(value) {
-            self.findings.error(
+            self.error(
                 Mistake::NotFinite,
-                self.span(),
                 format!(
-                    "{}: `{}` is {value:?}, need a finite number up to {LARGEST:e}",
-                    self.subject, self.key
+                    ": `{}` is {value:?}, need a finite number up to {LARGEST:e}",
+                    self.key
                 ),
                 "not a usable number",
             );

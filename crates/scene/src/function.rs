@@ -147,10 +147,9 @@ pub(crate) fn read(field: &Field, of: Dimension, domains: &mut Vec<Domain>) -> O
         "table" => points(&mut table, of, Function::table, domains),
         "linear-table" => points(&mut table, of, Function::lines, domains),
         unknown => {
-            field.findings.error_with_help(
+            kind.error_with_help(
                 Mistake::UnknownType,
-                kind.span(),
-                format!("{} has the unknown type `{unknown}`", table.subject),
+                format!(" has the unknown type `{unknown}`"),
                 "no such function of time",
                 did_you_mean(unknown, names()).or(Some(format!("there are {}", list(names())))),
             );

@@ -182,10 +182,5 @@ impl<S: SceneSpace> JointMeasure<'_, '_, S> {
 }
 
 fn refuse(field: &Field, error: &impl std::fmt::Display) {
-    field.findings.error(
-        Mistake::Registry,
-        field.span(),
-        format!("{}: {error}", field.subject),
-        "not possible",
-    );
+    field.error(Mistake::Registry, format!(": {error}"), "not possible");
 }

@@ -74,10 +74,9 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
             ),
             None => "no such joint".to_owned(),
         };
-        field.findings.error_with_help(
+        field.error_with_help(
             Mistake::UnknownJoint,
-            field.span(),
-            format!("{} refers to the unknown joint `{name}`", field.subject),
+            format!(" refers to the unknown joint `{name}`"),
             label,
             match near {
                 Some(near) => Some(format!("did you mean `{}`?", near.name)),
@@ -119,10 +118,9 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         pair(field, expected, |item| {
             let text = item.text(expected)?;
             let Some((name, measure)) = text.rsplit_once('.') else {
-                field.findings.error(
+                item.error(
                     Mistake::UnknownMeasure,
-                    item.span(),
-                    format!("{}: `{text}` is not a measure of a joint", item.subject),
+                    format!(": `{text}` is not a measure of a joint"),
                     "write `joint.measure`, for example \"A.angle\"",
                 );
                 return None;

@@ -128,10 +128,9 @@ impl Markers {
         let mut sorted: Vec<&str> = names().collect();
         sorted.sort_unstable();
         let near = field.findings.suggest(name, sorted.iter().copied());
-        field.findings.error_with_help(
+        field.error_with_help(
             Mistake::UnknownMarker,
-            field.span(),
-            format!("{} refers to the unknown marker `{name}`", field.subject),
+            format!(" refers to the unknown marker `{name}`"),
             "no such marker",
             match near {
                 Some(near) => Some(format!("did you mean `{near}`?")),

@@ -70,10 +70,9 @@ fn kind(table: &mut Table, space: SpaceKind) -> Option<MeasureKind> {
     let mut known = MeasureKind::ALL.into_iter();
     let found = known.find(|kind| kind.name() == name && kind.exists_in(space));
     if found.is_none() {
-        table.findings.error_with_help(
+        field.error_with_help(
             Mistake::UnknownType,
-            field.span(),
-            format!("{} has the unknown type `{name}`", table.subject),
+            format!(" has the unknown type `{name}`"),
             "unknown type",
             did_you_mean(name, kinds(space)).or(Some(format!(
                 "the types of a measure are {}",

@@ -77,14 +77,12 @@ pub(crate) fn read<S: SceneSpace>(
     let (at, local) = (table.optional(AT), table.optional(local_key));
     match (at, local) {
         (Some(at), Some(local)) => {
-            table.findings.collision(
-                Mistake::Exclusive,
-                local.span(),
-                format!("{} takes `at` or `{local_key}`, not both", table.subject),
-                &format!("and here {}", frames(local_key)),
-                at.span(),
-                "the place is given here",
-            );
+            let label = format!("and here {}", frames(local_key));
+            let values = [
+                (at.span(), "the place is given here"),
+                (local.span(), &label),
+            ];
+            table.exclusive(format!("`at` or `{local_key}`"), values);
             missing(local.span())
         }
         (Some(at), None) => Place {
@@ -106,12 +104,9 @@ pub(crate) fn read<S: SceneSpace>(
             if spec.points_apart {
                 form = format!("[{form}, …]");
             }
-            table.findings.error(
-                Mistake::Missing,
-                table.header.clone(),
+            table.missing(
                 format!(
-                    "{} needs a place: `at = {form}` in global coordinates, or `{local_key}` {}",
-                    table.subject,
+                    " needs a place: `at = {form}` in global coordinates, or `{local_key}` {}",
                     frames(local_key)
                 ),
                 "the place is missing here",
@@ -158,15 +153,7 @@ fn local<S: SceneSpace>(
         Point::At(point) => bodies.to_local(body, point),
     };
     if !S::point(local).iter().all(|x| is_usable(*x)) {
-        at.findings.error(Mistake::NotFinite,
-            at.span(),
-            format!(
-                "{}: `at` and the position of `{}` are too far apart: their difference is not a finite number up to {LARGEST:e}",
-                at.subject,
-                bodies.names.name(body)
-            ),
-            "too far away",
-        );
+        at.error(Mistake::NotFinite, format!(": `at` and the position of `{}` are too far apart: their difference is not a finite number up to {LARGEST:e}", bodies.names.name(body)), "too far away");
         return None;
     }
     Some(local)
@@ -300,10 +287,8 @@ fn by_body<S: SceneSpace>(
         }
     }
     for name in missing {
-        field.findings.error(
-            Mistake::Missing,
-            table.header.clone(),
-            format!("{} needs the point of `{name}`", table.subject),
+        table.missing(
+            format!(" needs the point of `{name}`"),
             format!("`{name} = {}` is missing here", S::VECTOR),
         );
     }

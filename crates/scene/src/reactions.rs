@@ -105,10 +105,9 @@ pub(crate) fn group(mut table: Table, name: &str, names: &Reactions) -> Option<G
     let content = match (of, combine) {
         (Some(field), None) => match members(&field, names) {
             Some(none) if none.is_empty() => {
-                table.findings.error(
+                field.error(
                     Mistake::EmptyList,
-                    field.span(),
-                    format!("{}: `members` is empty", table.subject),
+                    ": `members` is empty",
                     "needs at least one joint or drive",
                 );
                 None
@@ -117,24 +116,14 @@ pub(crate) fn group(mut table: Table, name: &str, names: &Reactions) -> Option<G
         },
         (None, Some(combine)) => self::combine(&combine, names).map(GroupContent::Combination),
         (Some(members), Some(combine)) => {
-            table.findings.collision(
-                Mistake::Exclusive,
-                combine.span(),
-                format!("{} takes `members` or `combine`, not both", table.subject),
-                "and a combination here",
-                members.span(),
-                "members are given here",
-            );
+            let first = (members.span(), "members are given here");
+            let second = (combine.span(), "and a combination here");
+            table.exclusive("`members` or `combine`", [first, second]);
             None
         }
         (None, None) => {
-            table.findings.error(
-                Mistake::Missing,
-                table.header.clone(),
-                format!(
-                    "{} needs `members = [\"A\", …]` or `combine = \"A.Fx + …\"`",
-                    table.subject
-                ),
+            table.missing(
+                " needs `members = [\"A\", …]` or `combine = \"A.Fx + …\"`",
                 "its content is missing here",
             );
             None
@@ -187,23 +176,18 @@ fn members(field: &Field, names: &Reactions) -> Option<Vec<String>> {
         };
         if names.find(name).is_none() && names.is_inactive(name) {
             right = false;
-            field.findings.error_with_help(
+            item.error_with_help(
                 Mistake::Inactive,
-                item.span(),
-                format!("{} refers to `{name}`, which is not active", item.subject),
+                format!(" refers to `{name}`, which is not active"),
                 "not active",
                 active::HELP.to_owned(),
             );
         } else if names.find(name).is_none() {
             right = false;
             let near = field.findings.suggest(name, names.names());
-            field.findings.error_with_help(
+            item.error_with_help(
                 Mistake::UnknownJoint,
-                item.span(),
-                format!(
-                    "{} refers to the unknown joint or drive `{name}`",
-                    item.subject
-                ),
+                format!(" refers to the unknown joint or drive `{name}`"),
                 "no such joint or drive",
                 near.map(|near| format!("did you mean `{near}`?")),
             );

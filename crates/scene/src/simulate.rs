@@ -189,10 +189,9 @@ fn bounded(field: &Field, key: &Key) -> Option<f64> {
         value,
         expected,
     };
-    field.findings.error(
+    field.error(
         Mistake::OutOfRange,
-        field.span(),
-        format!("{}: {error}", field.subject),
+        format!(": {error}"),
         format!("expected {expected}"),
     );
     None
@@ -224,19 +223,13 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>) -> Option<T> {
         return Some(found);
     }
     if let Some(words) = moved(&field.key, value) {
-        table.findings.error(
-            Mistake::NotOfARun,
-            field.span(),
-            format!("{}: {words}", field.subject),
-            "not of a run",
-        );
+        field.error(Mistake::NotOfARun, format!(": {words}"), "not of a run");
         return None;
     }
     let help = did_you_mean(value, names());
-    table.findings.error_with_help(
+    field.error_with_help(
         Mistake::UnknownChoice,
-        field.span(),
-        format!("{}: `{}` `{value}` is unknown", field.subject, field.key),
+        format!(": `{}` `{value}` is unknown", field.key),
         "no such choice",
         help.or_else(|| Some(format!("available are {}", list(names())))),
     );
@@ -259,12 +252,7 @@ fn refuse_moved(table: &mut Table) {
         let value = table.peek(key).unwrap_or(key);
         let words = moved(of, value);
         let words = words.unwrap_or_else(|| format!("a run has no key `{key}`"));
-        table.findings.error(
-            Mistake::NotOfARun,
-            field.span(),
-            format!("{}: {words}", field.subject),
-            "not of a run",
-        );
+        field.error(Mistake::NotOfARun, format!(": {words}"), "not of a run");
     }
 }
 
@@ -279,13 +267,9 @@ fn rows(field: &Field) -> Vec<(usize, Range<usize>)> {
             continue;
         };
         let Some(row) = usize::try_from(number).ok().and_then(|n| n.checked_sub(1)) else {
-            field.findings.error(
+            item.error(
                 Mistake::UnknownRow,
-                item.span(),
-                format!(
-                    "{}: `drop` names row {number}; rows are counted from 1",
-                    field.subject
-                ),
+                format!(": `drop` names row {number}; rows are counted from 1"),
                 "no such row",
             );
             continue;

@@ -32,7 +32,7 @@ pub(crate) struct Table<'t> {
     pub(crate) findings: &'t Findings<'t>,
     known: Vec<&'static str>,
     /// Keys that are missing, with the index of the problem in the findings.
-    missing: Vec<(&'static str, usize)>,
+    absent: Vec<(&'static str, usize)>,
     /// Keys that scenes of a space have, with its name.
     by_space: Vec<(&'static str, &'static str)>,
 }
@@ -51,7 +51,7 @@ impl<'t> Table<'t> {
             language,
             findings,
             known: Vec::new(),
-            missing: Vec::new(),
+            absent: Vec::new(),
             by_space: Vec::new(),
         }
     }
@@ -109,9 +109,31 @@ impl<'t> Table<'t> {
         message: impl Into<String>,
         label: impl Into<String>,
     ) {
-        self.missing.push((key, self.findings.next()));
+        self.absent.push((key, self.findings.next()));
         self.findings
             .error(Mistake::Missing, self.header.clone(), message, label);
+    }
+
+    /// Reports that something is missing; the message continues the description of the table.
+    pub(crate) fn missing(&self, message: impl Display, label: impl Into<String>) {
+        let message = format!("{}{message}", self.subject);
+        let at = self.header.clone();
+        self.findings.error(Mistake::Missing, at, message, label);
+    }
+
+    /// Reports two values that exclude each other, each with its label; `ways` are their keys.
+    pub(crate) fn exclusive(&self, ways: impl Display, values: [(Range<usize>, &str); 2]) {
+        let message = format!("{} takes {ways}, not both", self.subject);
+        let [(first, of_first), (second, of_second)] = values;
+        let findings = self.findings;
+        findings.collision(
+            Mistake::Exclusive,
+            second,
+            message,
+            of_second,
+            first,
+            of_first,
+        );
     }
 
     /// All keys with their values, for tables whose keys are names.
@@ -172,7 +194,7 @@ impl<'t> Table<'t> {
                 (None, Some(near)) => format!("did you mean `{near}`?"),
                 (None, None) => "unknown key".to_owned(),
             };
-            if let Some((_, problem)) = self.missing.iter().find(|(key, _)| near == Some(key)) {
+            if let Some((_, problem)) = self.absent.iter().find(|(key, _)| near == Some(key)) {
                 self.findings.explain(*problem);
             }
             self.findings.error_with_help(

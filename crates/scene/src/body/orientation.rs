@@ -90,13 +90,9 @@ fn quaternion(field: &Field) -> Option<[f64; 4]> {
     let e: [f64; 4] = e.try_into().ok()?;
     let length = e.iter().fold(0.0_f64, |length, x| length.hypot(*x));
     if length == 0.0 {
-        field.findings.error(
+        field.error(
             Mistake::NoDirection,
-            field.span(),
-            format!(
-                "{}: `{}` is zero, which is no orientation",
-                field.subject, field.key
-            ),
+            format!(": `{}` is zero, which is no orientation", field.key),
             "no orientation",
         );
         return None;
@@ -120,10 +116,9 @@ fn about(table: &Table, axis: &Field, angle: Option<Field>) -> Option<[f64; 4]> 
     };
     let angle = angle.number(ANGLE.unit)?;
     let Some(axis) = joints::space3::Direction::new([x, y, z]) else {
-        table.findings.error(
+        axis.error(
             Mistake::NoDirection,
-            axis.span(),
-            format!("{}: `{}` has length zero", axis.subject, axis.key),
+            format!(": `{}` has length zero", axis.key),
             "has no direction",
         );
         return None;
@@ -153,10 +148,9 @@ fn rotation(field: &Field) -> Option<[f64; 4]> {
         let rotation = Rotation3::from_matrix_unchecked(polar);
         return Some(numbers(UnitQuaternion::from_rotation_matrix(&rotation)));
     };
-    field.findings.error(
+    field.error(
         const { Code::new(152) },
-        field.span(),
-        format!("{}: `{}` {fault}", field.subject, field.key),
+        format!(": `{}` {fault}", field.key),
         "no orientation",
     );
     None

@@ -117,10 +117,9 @@ fn tensor(field: &Field) -> Option<[[f64; 3]; 3]> {
     let [x, y, z]: [f64; 3] = moments.try_into().ok()?;
     for (moment, item) in [x, y, z].iter().zip(&items) {
         if *moment < 0.0 {
-            field.findings.error(
+            item.error(
                 Mistake::OutOfRange,
-                item.span(),
-                format!("{}: `{}` has the moment {moment}", field.subject, field.key),
+                format!(": `{}` has the moment {moment}", field.key),
                 "may not be negative",
             );
             return None;

@@ -246,13 +246,9 @@ fn bases(field: &Field) -> (Bases, Units) {
         let found = fitting.find(|(unit, _)| *unit == name);
         if found.is_none() {
             let names = names_of(of);
-            field.findings.error_with_help(
+            field.error_with_help(
                 Mistake::UnknownChoice,
-                field.span(),
-                format!(
-                    "{}: `{}` must be {}, found `{name}`",
-                    field.subject, field.key, key.expected
-                ),
+                format!(": `{}` must be {}, found `{name}`", field.key, key.expected),
                 "no such unit",
                 did_you_mean(name, names.iter().copied())
                     .or(Some(format!("there are {}", list(names.iter().copied())))),
