@@ -40,9 +40,7 @@ pub(crate) fn read<S: SceneSpace>(
     };
     let [of_x, of_y] = dimensions;
     let per = |power: i8| of_y.times(of_x, -power);
-    let ratio = table
-        .required(&RATIO)
-        .and_then(|field| field.number(per(1)));
+    let ratio = table.of_key(&RATIO).and_then(|field| field.number(per(1)));
     let more = table
         .optional(&COEFFICIENTS)
         .map_or(Some(Vec::new()), |field| {

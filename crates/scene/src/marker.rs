@@ -73,8 +73,7 @@ pub(crate) struct Markers {
 impl Markers {
     /// Reads one marker of bodies with these names.
     pub(crate) fn read<S: SceneSpace>(&mut self, mut table: Table, name: &str, bodies: &BodyNames) {
-        let body = table.required(&BODY);
-        let body = body.and_then(|field| bodies.find(&field));
+        let body = table.of_key(&BODY).and_then(|field| bodies.find(&field));
         let point = table.needed(POINT.name, S::POINT);
         let point = point.and_then(|field| field.vector::<S>(S::POINT, POINT.unit));
         let (mut angle, mut orientation) = (None, None);

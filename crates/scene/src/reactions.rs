@@ -139,24 +139,19 @@ pub(crate) fn group(mut table: Table, name: &str, names: &Reactions) -> Option<G
 /// Reads the section `[output]`.
 pub(crate) fn output(mut table: Table, names: &Reactions) -> Output {
     let defaults = Output::default();
-    let trajectory = table
-        .optional(&TRAJECTORY)
-        .and_then(|field| field.boolean());
-    let report = table.optional(&REPORT).and_then(|field| field.boolean());
-    let reactions =
-        table
-            .optional(&REACTIONS)
-            .and_then(|field| match field.value.get_ref().as_bool() {
-                Some(true) => Some(WantedReactions::All),
-                Some(false) => Some(WantedReactions::None),
-                None => members(&field, names).map(WantedReactions::Of),
-            });
-    table.close();
-    Output {
-        trajectory: trajectory.unwrap_or(defaults.trajectory),
+    let reactions = table.optional(&REACTIONS);
+    let reactions = reactions.and_then(|field| match field.value.get_ref().as_bool() {
+        Some(true) => Some(WantedReactions::All),
+        Some(false) => Some(WantedReactions::None),
+        None => members(&field, names).map(WantedReactions::Of),
+    });
+    let output = Output {
+        trajectory: table.flag(&TRAJECTORY).unwrap_or(defaults.trajectory),
         reactions: reactions.unwrap_or_default(),
-        report: report.unwrap_or(defaults.report),
-    }
+        report: table.flag(&REPORT).unwrap_or(defaults.report),
+    };
+    table.close();
+    output
 }
 
 /// A list of joints and drives, each once.

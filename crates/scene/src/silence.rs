@@ -39,9 +39,7 @@ pub(crate) const SCENE_KEYS: [Key; 1] = [SILENCE];
 
 /// Silences what `[scene]` says.
 pub(crate) fn read(table: &mut Table) {
-    let field = table.optional(&SILENCE);
-    let items = field.and_then(|field| field.items(SILENCE.expected));
-    for item in items.unwrap_or_default() {
+    for item in table.items(&SILENCE) {
         let Some(text) = item.text(SILENCE.expected) else {
             continue;
         };

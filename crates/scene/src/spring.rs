@@ -52,13 +52,9 @@ pub(crate) fn read<S: SceneSpace>(
         (&STIFFNESS, Unit::TorsionStiffness),
         (&DAMPING, Unit::TorsionDamping),
     ]
-    .map(|(key, unit)| {
-        let field = table.required(key)?;
-        field.number(unit.into())
-    });
-    let free = table
-        .optional(&FREE_ANGLE)
-        .map(|field| field.number(Dimension::ANGLE));
+    .map(|(key, unit)| table.of_key(key)?.number(unit.into()));
+    let free = table.of_key(&FREE_ANGLE);
+    let free = free.map(|field| field.number(FREE_ANGLE.unit));
     let (joint, of) = (joint?, of?);
     let asked = match &measure {
         Some(field) => Some(field.text(MEASURE.expected)?),

@@ -32,11 +32,7 @@ pub(crate) const KEYS: [Key; 2] = [KEEP, ALLOW_CORRECTION];
 pub(crate) fn read<S: SceneSpace>(mut table: Table, bodies: &BodyNames) -> StartOptions {
     let mut kept: Vec<Coordinate> = Vec::new();
     let mut named = HashMap::new();
-    let items = table
-        .optional(&KEEP)
-        .and_then(|field| field.items(KEEP.expected))
-        .unwrap_or_default();
-    for item in items {
+    for item in table.items(&KEEP) {
         let Some((body, found)) = kept_of::<S>(&item, bodies) else {
             continue;
         };
@@ -54,9 +50,7 @@ pub(crate) fn read<S: SceneSpace>(mut table: Table, bodies: &BodyNames) -> Start
             kept.push(Coordinate { body, dof, level });
         }
     }
-    let allowed = table
-        .optional(&ALLOW_CORRECTION)
-        .and_then(|field| field.boolean());
+    let allowed = table.flag(&ALLOW_CORRECTION);
     table.close();
     StartOptions {
         keep: kept,

@@ -13,6 +13,7 @@ use crate::key::Key;
 use crate::language::Language;
 use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
+use crate::space::SceneSpace;
 
 /// What is said of something that another space has.
 pub(crate) fn belongs(what: &str, space: &str) -> String {
@@ -86,6 +87,37 @@ impl<'t> Table<'t> {
     /// The value of a required key.
     pub(crate) fn required(&mut self, key: &Key) -> Option<Field<'t>> {
         self.needed(key.name, key.expected)
+    }
+
+    /// The value of a key, which is reported if it is required and missing.
+    pub(crate) fn of_key(&mut self, key: &Key) -> Option<Field<'t>> {
+        if key.is_required {
+            self.required(key)
+        } else {
+            self.optional(key)
+        }
+    }
+
+    /// The number under a key.
+    pub(crate) fn number(&mut self, key: &Key) -> Option<f64> {
+        self.of_key(key)?.number(key.unit)
+    }
+
+    /// The vector under a key.
+    pub(crate) fn vector<S: SceneSpace>(&mut self, key: &Key) -> Option<S::Vector<f64>> {
+        self.of_key(key)?.vector::<S>(key.expected, key.unit)
+    }
+
+    /// `true` or `false` under a key.
+    pub(crate) fn flag(&mut self, key: &Key) -> Option<bool> {
+        self.of_key(key)?.boolean()
+    }
+
+    /// The list under a key; nothing if it is missing, or is no list, which is reported.
+    pub(crate) fn items(&mut self, key: &Key) -> Vec<Field<'t>> {
+        let field = self.of_key(key);
+        let items = field.and_then(|field| field.items(key.expected));
+        items.unwrap_or_default()
     }
 
     /// The value of a required key whose type is stated by a definition.

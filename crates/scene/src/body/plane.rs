@@ -77,51 +77,22 @@ impl SceneBody for Plane {
 
     fn read_start(start: &mut Table, body: &Body) -> FramePose {
         let [position, angle] = &START_KEYS;
-        let at = start
-            .optional(position)
-            .and_then(|field| field.vector::<Self>(position.expected, position.unit));
-        let turned = start
-            .optional(angle)
-            .and_then(|field| field.number(angle.unit));
         FramePose::Plane {
-            position: at.unwrap_or(body.position),
-            angle: turned.unwrap_or(body.angle),
+            position: start.vector::<Self>(position).unwrap_or(body.position),
+            angle: start.number(angle).unwrap_or(body.angle),
         }
     }
 
     fn read_body(table: &mut Table, name: &str) -> Body {
-        let mut required = |key: &Key| {
-            table
-                .required(key)
-                .and_then(|field| field.number(key.unit))
-                .unwrap_or_default()
-        };
-        let (mass, inertia) = (required(&MASS), required(&INERTIA));
-        let mut pair = |key: &Key| {
-            table
-                .optional(key)
-                .and_then(|field| field.vector::<Self>(key.expected, key.unit))
-        };
-        let mut place = |key: &Key| pair(key).unwrap_or_default();
-        let (centre, position) = (place(&CENTRE), place(&POSITION));
-        let velocity = pair(&VELOCITY);
-        let mut number = |key: &Key| {
-            let field = table.optional(key);
-            field.and_then(|field| field.number(key.unit))
-        };
-        let (angle, angular_velocity) = (
-            number(&ANGLE).unwrap_or_default(),
-            number(&ANGULAR_VELOCITY),
-        );
         Body {
             name: name.to_owned(),
-            mass,
-            inertia,
-            centre,
-            position,
-            angle,
-            velocity,
-            angular_velocity,
+            mass: table.number(&MASS).unwrap_or_default(),
+            inertia: table.number(&INERTIA).unwrap_or_default(),
+            centre: table.vector::<Self>(&CENTRE).unwrap_or_default(),
+            position: table.vector::<Self>(&POSITION).unwrap_or_default(),
+            velocity: table.vector::<Self>(&VELOCITY),
+            angle: table.number(&ANGLE).unwrap_or_default(),
+            angular_velocity: table.number(&ANGULAR_VELOCITY),
             tolerance: tolerance::read(table, &TOLERANCE),
         }
     }

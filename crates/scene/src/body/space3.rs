@@ -70,38 +70,28 @@ impl SceneBody for Space3 {
 
     fn read_start(start: &mut Table, body: &SpatialBody) -> FramePose {
         let [position, orientation] = &START_KEYS;
-        let at = start
-            .optional(position)
-            .and_then(|field| field.vector::<Self>(position.expected, position.unit));
-        let turned = start
-            .optional(orientation)
-            .and_then(|field| orientation::read(&field));
+        let turned = start.of_key(orientation);
         FramePose::Space3 {
-            position: at.unwrap_or(body.position),
-            orientation: turned.unwrap_or(body.orientation),
+            position: start.vector::<Self>(position).unwrap_or(body.position),
+            orientation: turned
+                .and_then(|field| orientation::read(&field))
+                .unwrap_or(body.orientation),
         }
     }
 
     fn read_body(table: &mut Table, name: &str) -> SpatialBody {
-        let mass = table.required(&MASS);
-        let mass = mass.and_then(|field| field.number(MASS.unit));
-        let inertia = table.required(&INERTIA);
-        let inertia = inertia.and_then(|field| tensor(&field));
-        let orientation = table.optional(&orientation::ORIENTATION);
+        let mass = table.number(&MASS).unwrap_or_default();
+        let inertia = table.of_key(&INERTIA).and_then(|field| tensor(&field));
+        let orientation = table.of_key(&orientation::ORIENTATION);
         let orientation = orientation.and_then(|field| orientation::read(&field));
-        let mut vector = |key: &Key| {
-            table
-                .optional(key)
-                .and_then(|field| field.vector::<Self>(key.expected, key.unit))
-        };
         SpatialBody {
-            centre: vector(&CENTRE).unwrap_or_default(),
-            position: vector(&POSITION).unwrap_or_default(),
+            centre: table.vector::<Self>(&CENTRE).unwrap_or_default(),
+            position: table.vector::<Self>(&POSITION).unwrap_or_default(),
             orientation: orientation.unwrap_or([1.0, 0.0, 0.0, 0.0]),
-            velocity: vector(&VELOCITY),
-            angular_velocity: vector(&ANGULAR_VELOCITY),
+            velocity: table.vector::<Self>(&VELOCITY),
+            angular_velocity: table.vector::<Self>(&ANGULAR_VELOCITY),
             tolerance: tolerance::read(table, &TOLERANCE),
-            ..SpatialBody::new(name, mass.unwrap_or_default(), inertia.unwrap_or_default())
+            ..SpatialBody::new(name, mass, inertia.unwrap_or_default())
         }
     }
 }
