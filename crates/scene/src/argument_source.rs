@@ -6,7 +6,7 @@ use joints::Argument;
 use joints::spec::{Shape, Spec};
 
 use crate::bearings::Bearings;
-use crate::between::Between;
+use crate::between::JointMarkers;
 use crate::bodies::Bodies;
 use crate::space::SceneSpace;
 
@@ -15,7 +15,7 @@ pub(crate) enum ArgumentSource<'a> {
     /// All are in its own table.
     Text,
     /// From two markers.
-    Markers(Between<'a>),
+    Markers(JointMarkers<'a>),
     /// From two joints, but for the pitch point and the line of action.
     Bearings(Bearings<'a>),
 }

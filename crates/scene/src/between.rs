@@ -62,12 +62,12 @@ fn directions(spec: &'static Spec) -> impl Iterator<Item = &'static str> {
 }
 
 /// The markers of a joint, and their place in the text.
-pub(crate) struct Between<'b> {
+pub(crate) struct JointMarkers<'b> {
     markers: [Option<&'b Marker>; 2],
     pub(crate) span: Range<usize>,
 }
 
-impl<'b> Between<'b> {
+impl<'b> JointMarkers<'b> {
     /// Reads `markers` of a definition whose slots contain the bodies `slots`; `None` if it is not
     /// written.
     pub(crate) fn read<S: SceneSpace>(

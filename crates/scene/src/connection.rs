@@ -23,7 +23,7 @@ pub(crate) fn listed(spec: &Spec) -> usize {
 }
 
 /// The bodies of the slots `body` or `bodies`, as far as they are known.
-pub(crate) type Named = Vec<Option<BodyRef>>;
+pub(crate) type NamedBodies = Vec<Option<BodyRef>>;
 
 /// Reads `body` or `bodies`. Returns `None` and reports if they are missing or if no definition
 /// accepts them.
@@ -31,7 +31,7 @@ pub(crate) fn named(
     table: &mut Table,
     specs: &[&'static Spec],
     bodies: &BodyNames,
-) -> Option<Named> {
+) -> Option<NamedBodies> {
     let takes = |n: usize| specs.iter().any(|spec| listed(spec) == n);
     let expected = match (takes(1), takes(2)) {
         (true, true) => "`body = …` or `bodies = [first, second]`",
@@ -112,9 +112,9 @@ pub(crate) fn check_names(table: &mut Table, bodies: &BodyNames) {
 pub(crate) fn slots(
     table: &mut Table,
     spec: &'static Spec,
-    mut named: Named,
+    mut named: NamedBodies,
     bodies: &BodyNames,
-) -> Named {
+) -> NamedBodies {
     for &slot in &spec.slots[listed(spec)..] {
         named.push(match table.optional(slot) {
             Some(field) => bodies.find(&field),

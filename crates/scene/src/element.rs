@@ -10,7 +10,7 @@ use crate::active::ACTIVE;
 use crate::argument_source::ArgumentSource;
 use crate::arguments::Arguments;
 use crate::bearings::Bearings;
-use crate::between::Between;
+use crate::between::JointMarkers;
 use crate::connection;
 use crate::direction::Directions;
 use crate::function::Domain;
@@ -206,7 +206,7 @@ pub(crate) fn read<'d, D: Definition>(
             return None;
         };
         slots = connection::slots(table, specs[chosen], named, &bodies.names);
-        let between = Between::read(table, specs[chosen], &slots, bodies);
+        let between = JointMarkers::read(table, specs[chosen], &slots, bodies);
         (at, source) = (
             chosen,
             between.map_or(ArgumentSource::Text, ArgumentSource::Markers),

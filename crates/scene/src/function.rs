@@ -13,40 +13,40 @@ use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
 /// A kind of function: the value of `type`, its keys, and its formula.
-pub(crate) struct Kind {
+pub(crate) struct FunctionKind {
     pub(crate) name: &'static str,
     pub(crate) keys: &'static [Key],
     pub(crate) doc: &'static str,
 }
 
 /// All kinds.
-pub(crate) const KINDS: [Kind; 6] = [
-    Kind {
+pub(crate) const KINDS: [FunctionKind; 6] = [
+    FunctionKind {
         name: "steps",
         keys: &[START, STEPS],
         doc: "start + Σ by·(10s³ − 15s⁴ + 6s⁵), s from 0 at `from` to 1 at `to`: smooth steps",
     },
-    Kind {
+    FunctionKind {
         name: "constant-rate",
         keys: &[RATE],
         doc: "rate·t",
     },
-    Kind {
+    FunctionKind {
         name: "polynomial",
         keys: &[COEFFICIENTS],
         doc: "c₀ + c₁·t + c₂·t² + …",
     },
-    Kind {
+    FunctionKind {
         name: "harmonic",
         keys: &[AMPLITUDE, OMEGA, PHASE, OFFSET],
         doc: "amplitude·sin(omega·t + phase) + offset",
     },
-    Kind {
+    FunctionKind {
         name: "table",
         keys: &[TIMES, VALUES],
         doc: "A smooth curve (C² spline) through points; the run must stay within its times",
     },
-    Kind {
+    FunctionKind {
         name: "linear-table",
         keys: &[TIMES, VALUES],
         doc: "Straight lines through points, two at one time are a jump; the run must stay within its times",

@@ -15,7 +15,7 @@ use crate::joint;
 use crate::joint_name::{JointNames, References};
 use crate::joint_read::JointRead;
 use crate::measure;
-use crate::names::{Names, Use};
+use crate::names::{NameUse, Names};
 use crate::reactions::components;
 use crate::section::{self, tables};
 use crate::source_map::Entry;
@@ -38,22 +38,22 @@ impl<'r, S: SceneBody> Parts<'r, S> {
         let mut names = Names::of(S::KIND);
         let mut bodies = Bodies::default();
         for (table, name) in tables(root, &section::BODY) {
-            names.bodies.push(Use::of(&name, &table));
+            names.bodies.push(NameUse::of(&name, &table));
             bodies.read(table, &name);
         }
         for (table, name) in tables(root, &section::MARKER) {
-            names.bodies.push(Use::of(&name, &table));
+            names.bodies.push(NameUse::of(&name, &table));
             bodies.markers.read::<S>(table, &name, &bodies.names);
         }
         let mut measures = Vec::new();
         for (table, name) in tables(root, &section::MEASURE) {
-            names.bodies.push(Use::of(&name, &table));
-            names.measures.push(Use::of(&name, &table));
+            names.bodies.push(NameUse::of(&name, &table));
+            names.measures.push(NameUse::of(&name, &table));
             measures.extend(measure::read(table, &name, S::KIND, &bodies.markers));
         }
         let mut domains = Vec::new();
         let found = tables(root, &section::JOINT);
-        let used = found.iter().map(|(table, name)| Use::of(name, table));
+        let used = found.iter().map(|(table, name)| NameUse::of(name, table));
         names.elements.extend(used);
         let types = Types::of_joints(registry);
         let mut joints = joint::read(found, &types, &bodies, &mut domains);
@@ -64,7 +64,7 @@ impl<'r, S: SceneBody> Parts<'r, S> {
         };
         let (mut drives, mut forces, mut replaced) = (Vec::new(), Vec::new(), HashSet::new());
         for (table, name) in tables(root, &section::DRIVE) {
-            names.elements.push(Use::of(&name, &table));
+            names.elements.push(NameUse::of(&name, &table));
             let mut read = drive::read(table, &name, references.joints, &mut domains);
             replaced.extend(read.in_place_of.take());
             match read.action {
@@ -74,7 +74,7 @@ impl<'r, S: SceneBody> Parts<'r, S> {
         }
         let types = Types::of_forces(registry);
         for (table, name) in tables(root, &section::FORCE) {
-            names.elements.push(Use::of(&name, &table));
+            names.elements.push(NameUse::of(&name, &table));
             let force = force::read(table, &name, &types, &references, &mut domains);
             forces.extend(force);
         }

@@ -143,14 +143,14 @@ fn global<S: SceneSpace>(
 /// A point that `at` gives, in the frame of a body relative to its centre of mass.
 fn local<S: SceneSpace>(
     at: &Field,
-    point: &Point<S>,
+    point: &PointText<S>,
     body: BodyRef,
     bodies: &Bodies<S>,
 ) -> Option<S::Vector<f64>> {
     let local = match *point {
-        Point::Of(marker) if marker.body == body => bodies.place_of(marker),
-        Point::Of(marker) => bodies.to_local(body, bodies.global(marker)),
-        Point::At(point) => bodies.to_local(body, point),
+        PointText::Of(marker) if marker.body == body => bodies.place_of(marker),
+        PointText::Of(marker) => bodies.to_local(body, bodies.global(marker)),
+        PointText::At(point) => bodies.to_local(body, point),
     };
     if !S::point(local).iter().all(|x| is_usable(*x)) {
         at.error(Mistake::NotFinite, format!(": `at` and the position of `{}` are too far apart: their difference is not a finite number up to {LARGEST:e}", bodies.names.name(body)), "too far away");
@@ -160,7 +160,7 @@ fn local<S: SceneSpace>(
 }
 
 /// A point as it is written.
-enum Point<'b, S: SceneSpace> {
+enum PointText<'b, S: SceneSpace> {
     At(S::Vector<f64>),
     Of(&'b Marker),
 }
@@ -170,12 +170,12 @@ fn point<'b, S: SceneSpace>(
     field: &Field,
     expected: &str,
     bodies: &'b Bodies<S>,
-) -> Option<Point<'b, S>> {
+) -> Option<PointText<'b, S>> {
     if bodies.markers.may_be(field) {
-        return bodies.markers.find(field).map(Point::Of);
+        return bodies.markers.find(field).map(PointText::Of);
     }
     let point = field.vector::<S>(expected, Dimension::LENGTH);
-    point.map(Point::At)
+    point.map(PointText::At)
 }
 
 /// The fields of `n` points. Returns `None` and reports if there are not as many.
@@ -217,9 +217,9 @@ fn of_body<S: SceneSpace>(
         let read = point(field, S::POINT, bodies)?;
         let body = body?;
         match read {
-            Point::At(point) => Some(bodies.about_centre(body, point)),
-            Point::Of(marker) if marker.body == body => Some(bodies.place_of(marker)),
-            Point::Of(marker) => {
+            PointText::At(point) => Some(bodies.about_centre(body, point)),
+            PointText::Of(marker) if marker.body == body => Some(bodies.place_of(marker)),
+            PointText::Of(marker) => {
                 bodies.foreign(marker, body, field);
                 None
             }

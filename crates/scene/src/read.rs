@@ -20,7 +20,7 @@ use crate::language::{Language, LengthUnit, Units};
 use crate::limits;
 use crate::locate;
 use crate::mistake::Mistake;
-use crate::names::Use;
+use crate::names::NameUse;
 use crate::parts::{Participation, Parts};
 use crate::plausible;
 use crate::reactions::{self, GroupRequest};
@@ -217,7 +217,7 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
 fn groups<S: SceneBody>(root: &mut Table, parts: &mut Parts<S>) -> (Vec<GroupRequest>, Vec<Entry>) {
     let found = tables(root, &section::GROUP);
     let mut entries = Vec::with_capacity(found.len());
-    parts.names.groups = found.iter().map(|(t, name)| Use::of(name, t)).collect();
+    parts.names.groups = found.iter().map(|(t, name)| NameUse::of(name, t)).collect();
     if found.is_empty() {
         return (Vec::new(), entries);
     }

@@ -11,7 +11,7 @@ use crate::field::Field;
 use crate::key::{Key, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
-use crate::space::{Kept, SceneSpace};
+use crate::space::{BodyCoordinate, SceneSpace};
 use crate::table::Table;
 
 const KEEP: Key = Key::optional(
@@ -30,13 +30,13 @@ pub(crate) const KEYS: [Key; 2] = [KEEP, ALLOW_CORRECTION];
 
 /// Reads the section.
 pub(crate) fn read<S: SceneSpace>(mut table: Table, bodies: &BodyNames) -> StartOptions {
-    let mut kept: Vec<Coordinate> = Vec::new();
+    let mut keep: Vec<Coordinate> = Vec::new();
     let mut named = HashMap::new();
     for item in table.items(&KEEP) {
-        let Some((body, found)) = kept_of::<S>(&item, bodies) else {
+        let Some((body, found)) = coordinate::<S>(&item, bodies) else {
             continue;
         };
-        let Kept { dofs, level, .. } = found;
+        let BodyCoordinate { dofs, level, .. } = found;
         let twice = "`[start]`: `keep` names a coordinate twice";
         for dof in dofs.clone() {
             let level = *level;
@@ -47,13 +47,13 @@ pub(crate) fn read<S: SceneSpace>(mut table: Table, bodies: &BodyNames) -> Start
             {
                 break;
             }
-            kept.push(Coordinate { body, dof, level });
+            keep.push(Coordinate { body, dof, level });
         }
     }
     let allowed = table.flag(&ALLOW_CORRECTION);
     table.close();
     StartOptions {
-        keep: kept,
+        keep,
         correction: match allowed {
             Some(true) => CorrectionLimit::Any,
             _ => CorrectionLimit::Small,
@@ -64,7 +64,10 @@ pub(crate) fn read<S: SceneSpace>(mut table: Table, bodies: &BodyNames) -> Start
 }
 
 /// Parses a coordinate such as `body.angle`.
-fn kept_of<S: SceneSpace>(item: &Field, bodies: &BodyNames) -> Option<(usize, &'static Kept)> {
+fn coordinate<S: SceneSpace>(
+    item: &Field,
+    bodies: &BodyNames,
+) -> Option<(usize, &'static BodyCoordinate)> {
     const EXPECTED: &str = "a coordinate of a body, as \"crank.angle\"";
     let text = item.text(EXPECTED)?;
     let Some((body, name)) = text.rsplit_once('.') else {
@@ -84,9 +87,9 @@ fn kept_of<S: SceneSpace>(item: &Field, bodies: &BodyNames) -> Option<(usize, &'
     if at.is_none() {
         bodies.unknown(item, body);
     }
-    let found = S::KEPT.iter().find(|known| known.name == name);
+    let found = S::COORDINATES.iter().find(|known| known.name == name);
     if found.is_none() {
-        let names = || S::KEPT.iter().map(|known| known.name);
+        let names = || S::COORDINATES.iter().map(|known| known.name);
         item.findings.error_with_help(
             Mistake::UnknownCoordinate,
             item.span(),

@@ -45,17 +45,17 @@ pub(crate) fn check(mechanism: &Mechanism, map: &SourceMap, unit: LengthUnit, fi
 }
 
 /// A joint with its points. Drives act at the points of their joints.
-struct Joint<'m> {
+struct JointPoints<'m> {
     name: &'m str,
     bodies: &'m [BodyRef],
     points: Vec<(BodyRef, [f64; 3])>,
 }
 
-fn joints(mechanism: &Mechanism) -> Vec<Joint<'_>> {
+fn joints(mechanism: &Mechanism) -> Vec<JointPoints<'_>> {
     let groups = mechanism.layout().groups.iter().enumerate();
     let joints = groups.filter(|(_, group)| !group.is_drive());
     joints
-        .map(|(k, group)| Joint {
+        .map(|(k, group)| JointPoints {
             name: &group.name,
             bodies: &group.bodies,
             points: mechanism.points(ConstraintId(k)),
@@ -65,7 +65,7 @@ fn joints(mechanism: &Mechanism) -> Vec<Joint<'_>> {
 
 /// What is known of the shape of a body.
 #[derive(Clone, Default)]
-struct Shape {
+struct BodyShape {
     /// Points of joints, forces and markers relative to the centre of mass.
     points: Vec<[f64; 3]>,
     is_held: bool,
@@ -73,7 +73,7 @@ struct Shape {
     forces: usize,
 }
 
-impl Shape {
+impl BodyShape {
     fn arms(&self) -> impl Iterator<Item = f64> {
         self.points.iter().map(|point| norm(point))
     }
@@ -84,9 +84,9 @@ impl Shape {
     }
 }
 
-fn bodies(mechanism: &Mechanism, joints: &[Joint]) -> Vec<Shape> {
+fn bodies(mechanism: &Mechanism, joints: &[JointPoints]) -> Vec<BodyShape> {
     let records = mechanism.bodies();
-    let mut bodies = vec![Shape::default(); records.len()];
+    let mut bodies = vec![BodyShape::default(); records.len()];
     let mut add = |points: &[(BodyRef, [f64; 3])]| {
         for (body, point) in points {
             if let BodyRef::Body(k) = body {
@@ -124,8 +124,8 @@ fn gyration(body: &BodyRecord) -> Option<f64> {
 
 /// Size of a mechanism: the upper median of all arms and radii of gyration, so that neither a few
 /// points far away nor many joints near centres of mass change it. `None` if there are none.
-fn size(records: &[BodyRecord], bodies: &[Shape]) -> Option<f64> {
-    let arms = bodies.iter().flat_map(Shape::arms);
+fn size(records: &[BodyRecord], bodies: &[BodyShape]) -> Option<f64> {
+    let arms = bodies.iter().flat_map(BodyShape::arms);
     let mut sizes: Vec<f64> = arms.chain(records.iter().filter_map(gyration)).collect();
     sizes.retain(|size| *size > 0.0);
     let middle = sizes.len() / 2;
@@ -134,7 +134,7 @@ fn size(records: &[BodyRecord], bodies: &[Shape]) -> Option<f64> {
 }
 
 /// Warns of bodies that no joint holds, if there are joints.
-fn unheld(records: &[BodyRecord], bodies: &[Shape], map: &SourceMap, findings: &Findings) {
+fn unheld(records: &[BodyRecord], bodies: &[BodyShape], map: &SourceMap, findings: &Findings) {
     if !bodies.iter().any(|body| body.is_held) {
         return;
     }
@@ -158,7 +158,7 @@ fn unheld(records: &[BodyRecord], bodies: &[Shape], map: &SourceMap, findings: &
 /// Warns of joints far from the centre of mass of a body.
 fn far(
     records: &[BodyRecord],
-    joints: &[Joint],
+    joints: &[JointPoints],
     map: &SourceMap,
     size: Option<f64>,
     unit: LengthUnit,
@@ -198,7 +198,7 @@ fn far(
 /// Warns of moments of inertia that fit no body of that mass and size.
 fn inertia(
     records: &[BodyRecord],
-    bodies: &[Shape],
+    bodies: &[BodyShape],
     map: &SourceMap,
     size: Option<f64>,
     unit: LengthUnit,

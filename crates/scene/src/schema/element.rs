@@ -20,16 +20,16 @@ use crate::tolerance;
 
 /// Kind of element in a section.
 #[derive(Clone, Copy)]
-pub(super) enum Kind {
+pub(super) enum ElementKind {
     Joint,
     Force,
 }
 
 /// The items of a section.
-pub(super) fn elements<S: SceneSpace>(registry: &Definitions<S>, kind: Kind) -> Value {
+pub(super) fn elements<S: SceneSpace>(registry: &Definitions<S>, kind: ElementKind) -> Value {
     let (title, mut specs): (_, Vec<&Spec>) = match kind {
-        Kind::Joint => ("Joint", registry.constraint_specs().collect()),
-        Kind::Force => ("Force", registry.force_specs().collect()),
+        ElementKind::Joint => ("Joint", registry.constraint_specs().collect()),
+        ElementKind::Force => ("Force", registry.force_specs().collect()),
     };
     // Definitions with the same type follow each other.
     specs.sort_by_key(|spec| spec.scene_type);
@@ -41,13 +41,13 @@ pub(super) fn elements<S: SceneSpace>(registry: &Definitions<S>, kind: Kind) -> 
 }
 
 /// The table of one definition.
-fn table<S: SceneSpace>(spec: &Spec, of: Kind, title: &str) -> Value {
+fn table<S: SceneSpace>(spec: &Spec, of: ElementKind, title: &str) -> Value {
     let mut properties = Map::new();
     let mut required = vec![NAME.name, TYPE];
     properties.insert(NAME.name.to_owned(), described(&NAME));
     let kind = json!({ "const": spec.scene_type, "description": in_one_line(spec.doc) });
     properties.insert(TYPE.to_owned(), kind);
-    let tolerance = matches!(of, Kind::Joint).then_some(&tolerance::OF_JOINT);
+    let tolerance = matches!(of, ElementKind::Joint).then_some(&tolerance::OF_JOINT);
     for key in tolerance.into_iter().chain([&ACTIVE]) {
         properties.insert(key.name.to_owned(), described(key));
     }
