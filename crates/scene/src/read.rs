@@ -236,9 +236,9 @@ fn groups<S: SceneBody>(root: &mut Table, parts: &mut Parts<S>) -> (Vec<GroupReq
     (groups, entries)
 }
 
-/// Builds the mechanism. Reports what it refuses, or else what is not plausible in it. The existence of
-/// bodies has already been checked, and so have names, including those of tables that could not be
-/// read.
+/// Builds the mechanism. Reports what it refuses, or else what is not plausible in it. The
+/// existence of bodies has already been checked, and so have names, including those of tables that
+/// could not be read.
 fn check(
     description: &AnyDescription,
     source: &SourceMap,
