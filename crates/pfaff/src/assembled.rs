@@ -49,8 +49,9 @@ impl AssembledScene {
     /// # Errors
     /// [`StudyError::Scene`]: all faults of the text.
     pub fn read(name: &str, text: &str, registry: &Registry) -> Result<Self, StudyError> {
-        let scene = scene::read(name, text, registry).map_err(StudyError::Scene)?;
-        Self::build(scene)
+        let read = scene::read_and_build(name, text, registry);
+        let (scene, mechanism) = read.map_err(StudyError::Scene)?;
+        Ok(Self { scene, mechanism })
     }
 
     /// Takes a scene, or a description alone, made by a program.

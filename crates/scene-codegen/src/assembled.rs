@@ -1,7 +1,7 @@
 //! A scene from its text to a mechanism on its rows.
 
 use dynamics::{MotionError, MotionOptions, Prepared, RowChoice, prepare};
-use model::{Mechanism, Registry};
+use model::Registry;
 
 use crate::error::CodeError;
 
@@ -23,15 +23,12 @@ pub(crate) fn prepared(
         registry,
         drop,
     } = scene;
-    let scene = ::scene::read(name, text, registry).map_err(CodeError::Scene)?;
+    let read = ::scene::read_and_build(name, text, registry);
+    let (scene, mechanism) = read.map_err(CodeError::Scene)?;
     let located = |e: MotionError| match scene.locate_motion(&e) {
         Some(place) => CodeError::Scene(vec![place]),
         None => e.into(),
     };
-    let mechanism = Mechanism::build(&scene.description).map_err(|faults| {
-        let places = faults.iter().filter_map(|e| scene.locate_build(e));
-        CodeError::Scene(places.collect())
-    })?;
     let mut options = scene.simulate.clone();
     let rows = match (drop, &options) {
         (Some(drop), _) => RowChoice::Drop(drop.to_vec()),

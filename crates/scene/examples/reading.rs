@@ -15,7 +15,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use model::start::{assemble, consistent_velocity};
-use model::{Mechanism, Registry, System};
+use model::{Registry, System};
 
 fn main() -> ExitCode {
     let Some(path) = std::env::args().nth(1) else {
@@ -35,22 +35,15 @@ fn main() -> ExitCode {
         peak()
     );
     let begin = Instant::now();
-    let scene = pfaff_scene::read(&path, &text, &Registry::standard());
-    said("pfaff_scene::read", begin);
-    let scene = match scene {
-        Ok(scene) => scene,
+    let read = pfaff_scene::read_and_build(&path, &text, &Registry::standard());
+    said("pfaff_scene::read_and_build", begin);
+    let (scene, mut mechanism) = match read {
+        Ok(read) => read,
         Err(problems) => {
             println!("{} problems, the first:", problems.len());
             println!("{}", problems[0]);
             return ExitCode::from(2);
         }
-    };
-    let begin = Instant::now();
-    let built = Mechanism::build(&scene.description);
-    said("Mechanism::build", begin);
-    let Ok(mut mechanism) = built else {
-        eprintln!("a scene that was read cannot be built");
-        return ExitCode::FAILURE;
     };
     let begin = Instant::now();
     let assembly = assemble(&mut mechanism, &scene.start);

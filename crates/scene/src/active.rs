@@ -1,7 +1,6 @@
 //! `active`: joints, drives, forces and groups that are read and checked, but take no part.
 
 use crate::dimension::Dimension;
-use crate::findings::Findings;
 use crate::key::{Key, Takes};
 use crate::table::Table;
 
@@ -11,17 +10,18 @@ pub(crate) const ACTIVE: Key = Key::optional("active", "true or false", Takes::S
     .or(|| true.into());
 
 /// Whether the item of a table takes part. What cannot be read is reported, and does.
-pub(crate) fn read(table: &mut Table, findings: &mut Findings) -> bool {
-    let Some(field) = table.optional(&ACTIVE) else {
+/// Its key is not marked as known: it is the last one of its table.
+pub(crate) fn read(table: &Table) -> bool {
+    let Some(field) = table.field(ACTIVE.name) else {
         return true;
     };
     let value = match field.value.get_ref().as_bool() {
         Some(value) => Some(value),
         None if field.may_be_number() => {
-            let number = field.number(Dimension::NONE, findings);
+            let number = field.number(Dimension::NONE);
             number.map(|number| number != 0.0)
         }
-        None => field.boolean(findings),
+        None => field.boolean(),
     };
     value.unwrap_or(true)
 }

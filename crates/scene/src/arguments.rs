@@ -6,10 +6,10 @@ use joints::spec::{Parameter, Shape, Spec, Unit};
 use joints::{Argument, ArgumentError, Plane};
 use model::Function;
 
+use crate::argument_source::ArgumentSource;
 use crate::dimension::Dimension;
 use crate::direction::{self, Directions};
 use crate::field::{Field, all};
-use crate::findings::Findings;
 use crate::function::{self, Domain};
 use crate::mistake::Mistake;
 use crate::place::Place;
@@ -33,7 +33,6 @@ impl Arguments {
         place: Place<S>,
         directions: &Directions<S>,
         domains: &mut Vec<Domain>,
-        findings: &mut Findings,
     ) -> Self {
         let mut arguments = Self {
             values: Vec::new(),
@@ -42,25 +41,31 @@ impl Arguments {
             complete: true,
         };
         let mut points = place.points.into_iter();
-        for parameter in spec.parameters {
+        for (k, parameter) in spec.parameters.iter().enumerate() {
+            if let Some((own, span)) = directions.given(spec, k) {
+                arguments.push::<S>(own, parameter.shape, span);
+                continue;
+            }
             if let Shape::Point { .. } = parameter.shape {
                 let point = points.next().flatten().map(S::argument);
                 arguments.push::<S>(point, parameter.shape, place.span.clone());
                 continue;
             }
-            let is_direction = matches!(
-                parameter.shape,
-                Shape::Axes { .. } | Shape::Direction { .. }
-            );
-            if let Some(between) = directions.between.as_ref().filter(|_| is_direction) {
-                let own = between.direction::<S>(parameter.name, parameter.shape);
-                arguments.push::<S>(own, parameter.shape, between.span.clone());
+            if let (Shape::Direction { slot }, ArgumentSource::Bearings(own)) =
+                (parameter.shape, &directions.source)
+            {
+                let last = spec.parameters[..k].iter().rposition(is_point);
+                let pitch = last.map(|at| &arguments.values[at]);
+                let pitch = pitch.filter(|_| arguments.complete);
+                let direction = |field: &Field| directions.direction(field, slot);
+                let (line, span) = own.line(table, parameter.name, direction, pitch);
+                arguments.push::<S>(line, parameter.shape, span);
                 continue;
             }
             if let Shape::Axes { slot, like } = parameter.shape {
                 let (axis, span) = match like {
                     Some(other) => arguments.like(spec, [other, slot], directions),
-                    None => axis(table, parameter, slot, directions, findings),
+                    None => axis(table, parameter, slot, directions),
                 };
                 arguments.push::<S>(axis, parameter.shape, span);
                 continue;
@@ -69,7 +74,7 @@ impl Arguments {
             let field = if parameter.optional {
                 table.optional(key)
             } else {
-                table.needed(key, parameter.shape.words(S::DIM), findings)
+                table.needed(key, parameter.shape.words(S::DIM))
             };
             let Some(field) = field else {
                 let absent = parameter.optional.then_some(Argument::Absent);
@@ -79,13 +84,13 @@ impl Arguments {
             let value = match parameter.shape {
                 Shape::Functions(units) => {
                     let expected = parameter.shape.words(S::DIM).to_string();
-                    let functions = functions(&field, units, &expected, domains, findings);
+                    let functions = functions(&field, units, &expected, domains);
                     arguments.complete &= functions.is_some();
                     arguments.functions.extend(functions.unwrap_or_default());
                     Some(Argument::Absent)
                 }
-                Shape::Direction { slot } => directions.direction(&field, slot, findings),
-                shape => value::<S>(&field, shape, findings),
+                Shape::Direction { slot } => directions.direction(&field, slot),
+                shape => value::<S>(&field, shape),
             };
             arguments.push::<S>(value, parameter.shape, field.span());
         }
@@ -117,10 +122,9 @@ impl Arguments {
     /// anything is wrong.
     pub(crate) fn build<S: SceneSpace, E>(
         &mut self,
+        table: &Table,
         spec: &'static Spec,
-        subject: &str,
         build: fn(&[Argument]) -> Result<E, ArgumentError>,
-        findings: &mut Findings,
     ) -> Option<E> {
         // A definition reports only its first fault: replace the value by a valid one and try
         // again.
@@ -132,10 +136,10 @@ impl Arguments {
             let at = error
                 .parameter()
                 .and_then(|name| spec.parameters.iter().position(|p| p.name == name))?;
-            findings.error(
+            table.findings.error(
                 Mistake::from(&error),
                 self.spans[at].clone(),
-                format!("{subject}: {error}"),
+                format!("{}: {error}", table.subject),
                 label(&error),
             );
             self.values[at] = harmless::<S>(spec.parameters[at].shape);
@@ -143,6 +147,10 @@ impl Arguments {
         }
         None
     }
+}
+
+fn is_point(parameter: &Parameter) -> bool {
+    matches!(parameter.shape, Shape::Point { .. })
 }
 
 /// A value that every definition accepts.
@@ -157,7 +165,7 @@ fn harmless<S: SceneSpace>(shape: Shape) -> Argument {
     }
 }
 
-pub(crate) fn label(error: &ArgumentError) -> &'static str {
+fn label(error: &ArgumentError) -> &'static str {
     match error {
         ArgumentError::Negative { .. } => "may not be negative",
         ArgumentError::NoDirection { .. } => "has no direction",
@@ -167,22 +175,22 @@ pub(crate) fn label(error: &ArgumentError) -> &'static str {
 }
 
 /// The value of a parameter that does not depend on time.
-fn value<S: SceneSpace>(field: &Field, shape: Shape, findings: &mut Findings) -> Option<Argument> {
+fn value<S: SceneSpace>(field: &Field, shape: Shape) -> Option<Argument> {
     let expected = shape.words(S::DIM).to_string();
     match shape {
         // Those have been read.
         Shape::Point { .. } | Shape::Direction { .. } | Shape::Axes { .. } => None,
-        Shape::GroundPlane => plane::<S>(field, &expected, findings),
+        Shape::GroundPlane => plane::<S>(field, &expected),
         Shape::GroundLine => {
-            let points = field.points::<Plane>(2, &expected, findings)?;
+            let points = field.points::<Plane>(2, &expected)?;
             points.try_into().ok().map(Argument::Pairs)
         }
         Shape::Numbers([unit]) => {
-            let number = field.number_expected(&expected, (*unit).into(), findings)?;
+            let number = field.number_expected(&expected, (*unit).into())?;
             Some(Argument::Numbers(vec![number]))
         }
         Shape::Numbers(units) => field
-            .numbers(units.len(), &expected, |k| units[k].into(), findings)
+            .numbers(units.len(), &expected, |k| units[k].into())
             .map(Argument::Numbers),
         Shape::Functions(_) => Some(Argument::Absent),
     }
@@ -194,17 +202,16 @@ fn axis<S: SceneSpace>(
     parameter: &Parameter,
     slot: usize,
     directions: &Directions<S>,
-    findings: &mut Findings,
 ) -> (Option<Argument>, Range<usize>) {
     let key = parameter.name;
     if parameter.optional {
-        return (directions.axis(None, slot, findings), table.header.clone());
+        return (directions.axis(None, slot), table.header.clone());
     }
     let expected = parameter.shape.words(S::DIM);
     let field = if directions.has_own_axes() {
         table.optional(key)
     } else {
-        table.needed(key, expected, findings)
+        table.needed(key, expected)
     };
     let span = |table: &Table| match &field {
         Some(field) => field.span(),
@@ -212,37 +219,25 @@ fn axis<S: SceneSpace>(
     };
     let span = span(table);
     if let Some(field) = field.as_ref().filter(|_| directions.has_own_axes()) {
-        findings.collision(
-            Mistake::Exclusive,
-            field.span(),
-            format!(
-                "{} takes `{key}` or `{}`, not both",
-                table.subject,
-                direction::AXES
-            ),
-            "and here for the first",
-            table.span_of(direction::AXES),
-            "the axis is given here for both bodies",
-        );
+        let axes = table.span_of(direction::AXES);
+        let first = (axes, "the axis is given here for both bodies");
+        let second = (field.span(), "and here for the first");
+        table.exclusive(format!("`{key}` or `{}`", direction::AXES), [first, second]);
         return (None, span);
     }
     let is_known = field.is_some() || directions.has_own_axes();
-    let axis = directions.axis(field.as_ref(), slot, findings);
+    let axis = directions.axis(field.as_ref(), slot);
     (axis.filter(|_| is_known), span)
 }
 
 /// A plane of the ground: a point and a normal.
-fn plane<S: SceneSpace>(
-    field: &Field,
-    expected: &str,
-    findings: &mut Findings,
-) -> Option<Argument> {
-    let mut table = field.table(expected, findings)?;
-    let point = table.needed("point", S::POINT, findings);
-    let normal = table.needed("normal", S::VECTOR, findings);
-    let point = point.and_then(|p| p.vector::<S>(S::POINT, Dimension::LENGTH, findings));
-    let normal = normal.and_then(|n| n.vector::<S>(S::VECTOR, Dimension::NONE, findings));
-    table.close(findings);
+fn plane<S: SceneSpace>(field: &Field, expected: &str) -> Option<Argument> {
+    let mut table = field.table(expected)?;
+    let point = table.needed("point", S::POINT);
+    let normal = table.needed("normal", S::VECTOR);
+    let point = point.and_then(|p| p.vector::<S>(S::POINT, Dimension::LENGTH));
+    let normal = normal.and_then(|n| n.vector::<S>(S::VECTOR, Dimension::NONE));
+    table.close();
     Some(Argument::Triples([S::point(point?), S::point(normal?)]))
 }
 
@@ -252,18 +247,17 @@ fn functions(
     units: &[Unit],
     expected: &str,
     domains: &mut Vec<Domain>,
-    findings: &mut Findings,
 ) -> Option<Vec<Function>> {
     if let [unit] = units {
-        return function::read(field, (*unit).into(), domains, findings).map(|f| vec![f]);
+        return function::read(field, (*unit).into(), domains).map(|f| vec![f]);
     }
-    let items = field.items(expected, findings)?;
+    let items = field.items(expected)?;
     if items.len() != units.len() {
-        field.miscount(expected, items.len(), units.len(), findings);
+        field.miscount(expected, items.len(), units.len());
         return None;
     }
     let mut units = units.iter();
     all(&items, |item| {
-        function::read(item, (*units.next()?).into(), domains, findings)
+        function::read(item, (*units.next()?).into(), domains)
     })
 }

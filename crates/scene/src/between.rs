@@ -5,15 +5,13 @@ use std::ops::Range;
 
 use joints::Argument;
 use joints::space3::Axes;
-use joints::spec::{Shape, Spec};
+use joints::spec::{Parameter, Shape, Spec};
 use model::{BodyRef, Marker};
 
 use crate::bodies::Bodies;
 use crate::connection::listed;
 use crate::direction;
 use crate::field::Field;
-use crate::findings::Findings;
-use crate::mistake::Mistake;
 use crate::place::{self, AT};
 use crate::space::SceneSpace;
 use crate::table::Table;
@@ -32,7 +30,10 @@ pub(crate) fn takes_markers<S: SceneSpace>(spec: &Spec) -> bool {
             Shape::Point { .. } | Shape::Direction { .. } | Shape::Axes { .. }
         )
     };
-    S::CARRIES && listed(spec) == 2 && spec.parameters.iter().any(|p| is_given(p.shape))
+    S::CARRIES
+        && !spec.bearings
+        && listed(spec) == 2
+        && spec.parameters.iter().any(|p| is_given(p.shape))
 }
 
 /// Keys that say the same as `markers`: the place, and parameters and keys of directions.
@@ -61,12 +62,12 @@ fn directions(spec: &'static Spec) -> impl Iterator<Item = &'static str> {
 }
 
 /// The markers of a joint, and their place in the text.
-pub(crate) struct Between<'b> {
+pub(crate) struct JointMarkers<'b> {
     markers: [Option<&'b Marker>; 2],
     pub(crate) span: Range<usize>,
 }
 
-impl<'b> Between<'b> {
+impl<'b> JointMarkers<'b> {
     /// Reads `markers` of a definition whose slots contain the bodies `slots`; `None` if it is not
     /// written.
     pub(crate) fn read<S: SceneSpace>(
@@ -74,45 +75,34 @@ impl<'b> Between<'b> {
         spec: &'static Spec,
         slots: &[Option<BodyRef>],
         bodies: &'b Bodies<S>,
-        findings: &mut Findings,
     ) -> Option<Self> {
         if !takes_markers::<S>(spec) {
             return None;
         }
         let field = table.optional(MARKERS)?;
         let between = Self {
-            markers: of_bodies(&field, slots, bodies, findings).unwrap_or_default(),
+            markers: of_bodies(&field, slots, bodies).unwrap_or_default(),
             span: field.span(),
         };
         for key in replaced(spec) {
             if let Some(other) = table.optional(key) {
-                findings.collision(
-                    Mistake::Exclusive,
-                    other.span(),
-                    format!("{} takes `{MARKERS}` or `{key}`, not both", table.subject),
-                    "and here once more",
-                    field.span(),
-                    "place and axes are those of the markers",
-                );
+                let first = (field.span(), "place and axes are those of the markers");
+                let second = (other.span(), "and here once more");
+                table.exclusive(format!("`{MARKERS}` or `{key}`"), [first, second]);
             }
         }
         Some(between)
     }
 
-    /// The points of a definition, relative to the centres of mass of their bodies.
-    pub(crate) fn points<S: SceneSpace>(
+    /// The argument of a point, or of a parameter along or across the axis: z of the marker of its
+    /// body, and x for what is called `cross`.
+    pub(crate) fn argument<S: SceneSpace>(
         &self,
-        spec: &Spec,
+        parameter: &Parameter,
         bodies: &Bodies<S>,
-    ) -> Vec<Option<S::Vector<f64>>> {
-        let point = |slot: usize| self.of(slot).map(|marker| bodies.place_of(marker));
-        spec.slots_of_points().map(point).collect()
-    }
-
-    /// The value of a parameter along or across the axis: z of the marker of its body, and x for
-    /// what is called `cross`.
-    pub(crate) fn direction<S: SceneSpace>(&self, name: &str, shape: Shape) -> Option<Argument> {
-        match shape {
+    ) -> Option<Argument> {
+        match parameter.shape {
+            Shape::Point { slot } => Some(S::argument(bodies.place_of(self.of(slot)?))),
             Shape::Axes { slot, .. } => {
                 let [x, y, z] = self.of(slot)?.axes();
                 Some(Argument::Axes(Axes::FRAME.map(|d| {
@@ -121,8 +111,8 @@ impl<'b> Between<'b> {
             }
             Shape::Direction { slot } => {
                 let [x, _, z] = self.of(slot)?.axes();
-                let along = if name == direction::CROSS { x } else { z };
-                Some(S::argument(S::vector(along)))
+                let is_across = parameter.name == direction::CROSS;
+                Some(S::argument(S::vector(if is_across { x } else { z })))
             }
             _ => None,
         }
@@ -138,19 +128,18 @@ fn of_bodies<'b, S: SceneSpace>(
     field: &Field,
     slots: &[Option<BodyRef>],
     bodies: &'b Bodies<S>,
-    findings: &mut Findings,
 ) -> Option<[Option<&'b Marker>; 2]> {
-    let items = field.items(EXPECTED, findings)?;
+    let items = field.items(EXPECTED)?;
     let [first, second] = items.as_slice() else {
-        field.miscount(EXPECTED, items.len(), 2, findings);
+        field.miscount(EXPECTED, items.len(), 2);
         return None;
     };
-    let mut of_slot = |slot: usize, field: &Field| {
-        let marker = bodies.markers.find(field, findings)?;
+    let of_slot = |slot: usize, field: &Field| {
+        let marker = bodies.markers.find(field)?;
         let body = slots.get(slot).copied().flatten()?;
         if marker.body != body {
             let needed = format!("one of `{}` is needed here", bodies.names.name(body));
-            bodies.not_of_body(marker, &needed, field, findings);
+            bodies.not_of_body(marker, &needed, field);
             return None;
         }
         Some(marker)

@@ -6,7 +6,6 @@ use model::{BodyRef, Marker, StartPose};
 
 use crate::body::{BodyNames, SceneBody};
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::marker::{self, Markers};
 use crate::mistake::Mistake;
 use crate::space::SceneSpace;
@@ -35,25 +34,25 @@ impl<S: SceneSpace> Default for Bodies<S> {
 
 impl<S: SceneSpace> Bodies<S> {
     /// Reads one body. Numbers that cannot be read are zero; they have been reported.
-    pub(crate) fn read(&mut self, mut table: Table, name: &str, findings: &mut Findings)
+    pub(crate) fn read(&mut self, mut table: Table, name: &str)
     where
         S: SceneBody,
     {
-        let body = S::read_body(&mut table, name, findings);
+        let body = S::read_body(&mut table, name);
         let start = table
             .optional(&S::START)
-            .and_then(|field| field.table(S::START.expected, findings));
+            .and_then(|field| field.table(S::START.expected));
         if let Some(mut start) = start {
             self.poses.push(StartPose {
                 body: self.list.len(),
-                frame: S::read_start(&mut start, &body, findings),
+                frame: S::read_start(&mut start, &body),
             });
-            start.close(findings);
+            start.close();
         }
         self.list.push(body);
         self.names.add(name, &table);
         table.spaces(keys());
-        table.close(findings);
+        table.close();
     }
 
     /// A point in the frame of a body relative to its centre of mass, as joints and forces take it;
@@ -84,34 +83,22 @@ impl<S: SceneSpace> Bodies<S> {
     }
 
     /// Reports a marker where a point of another body is needed.
-    pub(crate) fn foreign(
-        &self,
-        marker: &Marker,
-        needed: BodyRef,
-        field: &Field,
-        findings: &mut Findings,
-    ) {
+    pub(crate) fn foreign(&self, marker: &Marker, needed: BodyRef, field: &Field) {
         let name = &marker.name;
         let advice = format!(
             "a point of `{}` is needed; `at = \"{name}\"` takes the place where it is",
             self.names.name(needed)
         );
-        self.not_of_body(marker, &advice, field, findings);
+        self.not_of_body(marker, &advice, field);
     }
 
     /// Reports a marker that belongs to another body than the one that is needed.
-    pub(crate) fn not_of_body(
-        &self,
-        marker: &Marker,
-        needed: &str,
-        field: &Field,
-        findings: &mut Findings,
-    ) {
+    pub(crate) fn not_of_body(&self, marker: &Marker, needed: &str, field: &Field) {
         let (name, body) = (&marker.name, self.names.name(marker.body));
         let own = self.markers.list.iter().zip(&self.markers.entries);
         let found = own.clone().find(|(own, _)| own.name == marker.name);
         let place = found.map_or_else(|| field.span(), |(_, entry)| entry.span(marker::BODY.name));
-        findings.collision(
+        field.findings.collision(
             Mistake::ForeignMarker,
             field.span(),
             format!(

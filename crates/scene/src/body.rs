@@ -8,12 +8,10 @@ pub(crate) use orientation::{ANGLE, AXIS, MATRIX, QUATERNION, RPY, read as read_
 
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
-use std::ops::Range;
 
 use model::{BodyRef, FramePose};
 
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::key::Key;
 use crate::mistake::Mistake;
 use crate::nearest::all;
@@ -27,13 +25,13 @@ pub(crate) trait SceneBody: SceneSpace {
     const BODY_KEYS: &'static [Key];
 
     /// Reads one body; numbers that cannot be read are zero.
-    fn read_body(table: &mut Table, name: &str, findings: &mut Findings) -> Self::Body;
+    fn read_body(table: &mut Table, name: &str) -> Self::Body;
 
     /// The key for where a body starts if it does not start where it is described.
     const START: Key;
 
     /// Reads its value; what it leaves out is as described.
-    fn read_start(start: &mut Table, body: &Self::Body, findings: &mut Findings) -> FramePose;
+    fn read_start(start: &mut Table, body: &Self::Body) -> FramePose;
 }
 
 /// The names of the bodies, with their places.
@@ -61,14 +59,14 @@ impl BodyNames {
     }
 
     /// The body with the name in this field; `ground` is the ground.
-    pub(crate) fn find(&self, field: &Field, findings: &mut Findings) -> Option<BodyRef> {
-        let name = field.text("the name of a body", findings)?;
+    pub(crate) fn find(&self, field: &Field) -> Option<BodyRef> {
+        let name = field.text("the name of a body")?;
         if name == GROUND {
             return Some(BodyRef::Ground);
         }
         let at = self.position(name);
         if at.is_none() {
-            self.unknown(field.span(), &field.subject, name, findings);
+            self.unknown(field, name);
         }
         at.map(BodyRef::Body)
     }
@@ -79,13 +77,10 @@ impl BodyNames {
     }
 
     /// Reports a body that does not exist, unless a problem reported for the bodies explains it.
-    pub(crate) fn unknown(
-        &self,
-        span: Range<usize>,
-        subject: &str,
-        name: &str,
-        findings: &mut Findings,
-    ) {
+    pub(crate) fn unknown(&self, field: &Field, name: &str) {
+        let Field {
+            subject, findings, ..
+        } = field;
         let near = findings.suggest(name, self.all());
         if near.is_none() && (self.entries.is_empty() || self.is_of_unnamed(name)) {
             return;
@@ -100,7 +95,7 @@ impl BodyNames {
         };
         findings.error_with_help(
             Mistake::UnknownBody,
-            span,
+            field.span(),
             format!("{subject} refers to the unknown body `{name}`"),
             label,
             match near {

@@ -221,26 +221,26 @@ pub(crate) fn parse(text: &str, reactions: &Reactions) -> Result<Combination, Co
 }
 
 /// A parsed term.
-enum Read {
+enum ParsedTerm {
     Component(Term),
     Wrench(WrenchTerm),
 }
 
 impl Combination {
-    fn of(term: Read) -> Self {
+    fn of(term: ParsedTerm) -> Self {
         match term {
-            Read::Component(term) => Self::Components(vec![term]),
-            Read::Wrench(term) => Self::Wrenches(vec![term]),
+            ParsedTerm::Component(term) => Self::Components(vec![term]),
+            ParsedTerm::Wrench(term) => Self::Wrenches(vec![term]),
         }
     }
 
     /// Adds a term of the same kind; otherwise returns whether it was a whole wrench.
-    fn push(&mut self, term: Read) -> Result<(), bool> {
+    fn push(&mut self, term: ParsedTerm) -> Result<(), bool> {
         match (self, term) {
-            (Self::Components(terms), Read::Component(term)) => terms.push(term),
-            (Self::Wrenches(terms), Read::Wrench(term)) => terms.push(term),
-            (Self::Components(_), Read::Wrench(_)) => return Err(true),
-            (Self::Wrenches(_), Read::Component(_)) => return Err(false),
+            (Self::Components(terms), ParsedTerm::Component(term)) => terms.push(term),
+            (Self::Wrenches(terms), ParsedTerm::Wrench(term)) => terms.push(term),
+            (Self::Components(_), ParsedTerm::Wrench(_)) => return Err(true),
+            (Self::Wrenches(_), ParsedTerm::Component(_)) => return Err(false),
         }
         Ok(())
     }
@@ -270,7 +270,7 @@ impl<'a> Scanner<'a> {
         Some(sign)
     }
 
-    fn term(&mut self, sign: f64, all: &Reactions) -> Result<Read, CombinationError> {
+    fn term(&mut self, sign: f64, all: &Reactions) -> Result<ParsedTerm, CombinationError> {
         let coefficient = sign * self.factor()?;
         let start = self.at;
         // Names may contain any characters, so the longest known name that fits is used.
@@ -280,7 +280,7 @@ impl<'a> Scanner<'a> {
         let reaction = known.name.to_owned();
         self.at += known.name.len();
         if !self.rest().starts_with('.') {
-            return Ok(Read::Wrench(WrenchTerm {
+            return Ok(ParsedTerm::Wrench(WrenchTerm {
                 coefficient,
                 reaction,
             }));
@@ -302,7 +302,7 @@ impl<'a> Scanner<'a> {
                 span: start..self.at,
             });
         }
-        Ok(Read::Component(Term {
+        Ok(ParsedTerm::Component(Term {
             coefficient,
             reaction,
             component: component.to_owned(),

@@ -7,7 +7,6 @@ use model::BodyRef;
 
 use crate::body::BodyNames;
 use crate::direction;
-use crate::findings::Findings;
 use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list, meant};
 use crate::source_map::PLACE_KEYS;
@@ -24,7 +23,7 @@ pub(crate) fn listed(spec: &Spec) -> usize {
 }
 
 /// The bodies of the slots `body` or `bodies`, as far as they are known.
-pub(crate) type Named = Vec<Option<BodyRef>>;
+pub(crate) type NamedBodies = Vec<Option<BodyRef>>;
 
 /// Reads `body` or `bodies`. Returns `None` and reports if they are missing or if no definition
 /// accepts them.
@@ -32,8 +31,7 @@ pub(crate) fn named(
     table: &mut Table,
     specs: &[&'static Spec],
     bodies: &BodyNames,
-    findings: &mut Findings,
-) -> Option<Named> {
+) -> Option<NamedBodies> {
     let takes = |n: usize| specs.iter().any(|spec| listed(spec) == n);
     let expected = match (takes(1), takes(2)) {
         (true, true) => "`body = …` or `bodies = [first, second]`",
@@ -51,19 +49,14 @@ pub(crate) fn named(
     let wrong = |key: &str| format!("{} takes {expected}, not `{key}`", table.subject);
     match (one, two) {
         (Some(one), Some(two)) => {
-            findings.collision(
-                Mistake::Exclusive,
-                two.span(),
-                format!("{} takes {expected}, not both", table.subject),
-                "and here two bodies are given",
-                one.span(),
-                "here one body is given",
-            );
+            let first = (one.span(), "here one body is given");
+            let second = (two.span(), "and here two bodies are given");
+            table.exclusive(expected, [first, second]);
             None
         }
-        (Some(one), None) if takes(1) => Some(vec![bodies.find(&one, findings)]),
+        (Some(one), None) if takes(1) => Some(vec![bodies.find(&one)]),
         (Some(one), None) => {
-            findings.error(
+            table.findings.error(
                 Mistake::BodyCount,
                 one.span(),
                 wrong("body"),
@@ -72,21 +65,16 @@ pub(crate) fn named(
             None
         }
         (None, Some(two)) if takes(2) => {
-            let items = two.items("two bodies [first, second]", findings)?;
+            let items = two.items("two bodies [first, second]")?;
             if items.len() != 2 {
-                two.miscount("two bodies [first, second]", items.len(), 2, findings);
+                two.miscount("two bodies [first, second]", items.len(), 2);
                 return None;
             }
-            Some(
-                items
-                    .iter()
-                    .map(|item| bodies.find(item, findings))
-                    .collect(),
-            )
+            Some(items.iter().map(|item| bodies.find(item)).collect())
         }
         (None, Some(two)) => {
             let name = specs.first().map_or("", |spec| spec.scene_type);
-            findings.error_with_help(
+            table.findings.error_with_help(
                 Mistake::BodyCount,
                 two.span(),
                 wrong("bodies"),
@@ -98,29 +86,24 @@ pub(crate) fn named(
             None
         }
         (None, None) => {
-            findings.error(
-                Mistake::Missing,
-                table.header.clone(),
-                format!("{} needs {expected}", table.subject),
-                "the bodies are missing here",
-            );
+            table.missing(format!(" needs {expected}"), "the bodies are missing here");
             None
         }
     }
 }
 
 /// Checks only that the bodies exist, if the definition is not known.
-pub(crate) fn check_names(table: &mut Table, bodies: &BodyNames, findings: &mut Findings) {
+pub(crate) fn check_names(table: &mut Table, bodies: &BodyNames) {
     if let Some(one) = table.optional(BODY) {
-        bodies.find(&one, findings);
+        bodies.find(&one);
     }
     let two = table.optional(BODIES);
     for item in two
-        .and_then(|two| two.items("two bodies [first, second]", findings))
+        .and_then(|two| two.items("two bodies [first, second]"))
         .iter()
         .flatten()
     {
-        bodies.find(item, findings);
+        bodies.find(item);
     }
 }
 
@@ -129,13 +112,12 @@ pub(crate) fn check_names(table: &mut Table, bodies: &BodyNames, findings: &mut 
 pub(crate) fn slots(
     table: &mut Table,
     spec: &'static Spec,
-    mut named: Named,
+    mut named: NamedBodies,
     bodies: &BodyNames,
-    findings: &mut Findings,
-) -> Named {
+) -> NamedBodies {
     for &slot in &spec.slots[listed(spec)..] {
         named.push(match table.optional(slot) {
-            Some(field) => bodies.find(&field, findings),
+            Some(field) => bodies.find(&field),
             None => Some(BodyRef::Ground),
         });
     }
@@ -143,12 +125,7 @@ pub(crate) fn slots(
 }
 
 /// Index in `specs` of the definition selected by the number of bodies and the key of the variant.
-pub(crate) fn choose(
-    table: &mut Table,
-    specs: &[&'static Spec],
-    n_named: usize,
-    findings: &mut Findings,
-) -> Option<usize> {
+pub(crate) fn choose(table: &mut Table, specs: &[&'static Spec], n_named: usize) -> Option<usize> {
     let fitting: Vec<usize> = (0..specs.len())
         .filter(|&k| listed(specs[k]) == n_named)
         .collect();
@@ -164,7 +141,7 @@ pub(crate) fn choose(
     };
     let Some((_, first)) = variants().next() else {
         let names: Vec<_> = fitting.iter().map(|&k| specs[k].name).collect();
-        findings.error(
+        table.findings.error(
             Mistake::Registry,
             table.header.clone(),
             format!(
@@ -181,19 +158,18 @@ pub(crate) fn choose(
     let Some(field) = table.optional(first.key) else {
         let default = variants().find(|(_, variant)| variant.default);
         if default.is_none() {
-            table.needed(first.key, &*expected, findings);
+            table.needed(first.key, &*expected);
         }
         return default.map(|(k, _)| k);
     };
-    let value = field.text(&expected, findings)?;
+    let value = field.text(&expected)?;
     let chosen = variants().find(|(_, variant)| variant.value == value);
     if chosen.is_none() {
-        findings.error_with_help(
+        field.error_with_help(
             Mistake::UnknownChoice,
-            field.span(),
             format!(
-                "{}: `{}` must be one of {expected}, found `{value}`",
-                field.subject, field.key
+                ": `{}` must be one of {expected}, found `{value}`",
+                field.key
             ),
             "no such choice",
             did_you_mean(value, values()),

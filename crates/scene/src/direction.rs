@@ -6,16 +6,19 @@ mod key;
 
 pub(crate) use key::{AXES, CROSS, FRAME, FRAMES, keys};
 
+use std::ops::Range;
+
 use joints::space3::{Axes, dot};
 use joints::spec::{Shape, Spec};
 use joints::{Argument, Space3};
 use model::BodyRef;
 
-use crate::between::{Between, MARKERS};
+use crate::argument_source::ArgumentSource;
+use crate::bearings::CARRIER;
+use crate::between::MARKERS;
 use crate::bodies::Bodies;
 use crate::dimension::Dimension;
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::mistake::Mistake;
 use crate::nearest::did_you_mean;
 use crate::space::SceneSpace;
@@ -32,8 +35,8 @@ pub(crate) struct Directions<'b, S: SceneSpace> {
     is_paired: bool,
     /// The axis in the frames of the bodies of the first two slots, if it could be read.
     own: Option<[S::Vector<f64>; 2]>,
-    /// The markers whose directions they are, if these are given.
-    pub(crate) between: Option<Between<'b>>,
+    /// Where they come from.
+    pub(crate) source: ArgumentSource<'b>,
 }
 
 impl<'b, S: SceneSpace> Directions<'b, S> {
@@ -42,8 +45,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         table: &mut Table,
         spec: &'static Spec,
         slots: &'b [Option<BodyRef>],
-        (bodies, between): (&'b Bodies<S>, Option<Between<'b>>),
-        findings: &mut Findings,
+        (bodies, source): (&'b Bodies<S>, ArgumentSource<'b>),
     ) -> Self {
         let mut directions = Self {
             bodies,
@@ -52,10 +54,10 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
             across: None,
             is_paired: false,
             own: None,
-            between,
+            source,
         };
         // Other keys have been refused.
-        if directions.between.is_some() {
+        if let ArgumentSource::Markers(_) = directions.source {
             return directions;
         }
         if !S::CARRIES {
@@ -72,11 +74,11 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
                 continue;
             };
             match key {
-                FRAME => directions.is_global = is_global(&field, findings),
-                CROSS => directions.across = direction::<S>(&field, findings),
+                FRAME => directions.is_global = is_global(&field),
+                CROSS => directions.across = direction::<S>(&field),
                 _ => {
                     directions.is_paired = true;
-                    directions.own = directions.both(&field, findings);
+                    directions.own = directions.both(&field);
                 }
             }
         }
@@ -84,8 +86,8 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
     }
 
     /// `axes`: one direction for each body, in its own frame.
-    fn both(&self, field: &Field, findings: &mut Findings) -> Option<[S::Vector<f64>; 2]> {
-        let table = field.table(S::BY_BODY, findings)?;
+    fn both(&self, field: &Field) -> Option<[S::Vector<f64>; 2]> {
+        let table = field.table(S::BY_BODY)?;
         let [Some(first), Some(second)] = self.slots.first_chunk()? else {
             return None;
         };
@@ -96,10 +98,12 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
             let Some((_, field)) = own else {
                 let message = format!("{} needs the direction of `{name}`", table.subject);
                 let label = format!("`{name} = {}` is missing here", S::VECTOR);
-                findings.error(Mistake::Missing, table.header.clone(), message, label);
+                field
+                    .findings
+                    .error(Mistake::Missing, table.header.clone(), message, label);
                 return None;
             };
-            direction::<S>(field, findings)
+            direction::<S>(field)
         });
         for (key, field) in all
             .iter()
@@ -109,7 +113,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
                 "{} names `{}`, which is not connected",
                 table.subject, field.key
             );
-            findings.error(
+            field.findings.error(
                 Mistake::UnknownKey,
                 key.clone(),
                 message,
@@ -120,6 +124,15 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
             [Some(a), Some(b)] => Some([a, b]),
             _ => None,
         }
+    }
+
+    /// The argument of a parameter that is not in the table of the element, and its place.
+    pub(crate) fn given(
+        &self,
+        spec: &Spec,
+        parameter: usize,
+    ) -> Option<(Option<Argument>, Range<usize>)> {
+        self.source.argument(spec, parameter, self.bodies)
     }
 
     /// Whether the axis is given by `axes` already.
@@ -135,30 +148,28 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
 
     /// A direction as it is written, in the axes of the body in a slot.
     fn placed(&self, direction: S::Vector<f64>, slot: usize) -> S::Vector<f64> {
-        let written = if self.is_global { None } else { self.body(0) };
+        let home = match self.source {
+            ArgumentSource::Bearings(_) => CARRIER,
+            ArgumentSource::Text | ArgumentSource::Markers(_) => 0,
+        };
+        let written = if self.is_global {
+            None
+        } else {
+            self.body(home)
+        };
         S::carried(direction, written, self.body(slot))
     }
 
     /// The direction of a parameter.
-    pub(crate) fn direction(
-        &self,
-        field: &Field,
-        slot: usize,
-        findings: &mut Findings,
-    ) -> Option<Argument> {
-        let direction = direction::<S>(field, findings)?;
+    pub(crate) fn direction(&self, field: &Field, slot: usize) -> Option<Argument> {
+        let direction = direction::<S>(field)?;
         Some(S::argument(self.placed(direction, slot)))
     }
 
     /// The axis of a parameter; without a field that of `axes`, or the axes of the body.
-    pub(crate) fn axis(
-        &self,
-        field: Option<&Field>,
-        slot: usize,
-        findings: &mut Findings,
-    ) -> Option<Argument> {
+    pub(crate) fn axis(&self, field: Option<&Field>, slot: usize) -> Option<Argument> {
         let axis = match (field, self.own) {
-            (Some(field), _) => self.placed(direction::<S>(field, findings)?, slot),
+            (Some(field), _) => self.placed(direction::<S>(field)?, slot),
             (None, Some(own)) => *own.get(slot)?,
             (None, None) if self.is_paired => return None,
             (None, None) => return Some(Argument::Axes(Axes::FRAME)),
@@ -192,29 +203,22 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
 }
 
 /// Components of a direction.
-pub(crate) fn direction<S: SceneSpace>(
-    field: &Field,
-    findings: &mut Findings,
-) -> Option<S::Vector<f64>> {
+fn direction<S: SceneSpace>(field: &Field) -> Option<S::Vector<f64>> {
     let expected = Shape::Direction { slot: 0 }.words(S::DIM).to_string();
-    field.vector::<S>(&expected, Dimension::NONE, findings)
+    field.vector::<S>(&expected, Dimension::NONE)
 }
 
 /// Whether `frame` says that directions are written in ground axes.
-pub(crate) fn is_global(field: &Field, findings: &mut Findings) -> bool {
+fn is_global(field: &Field) -> bool {
     let [own, global] = FRAMES;
     let expected = format!("\"{own}\" or \"{global}\"");
-    let Some(text) = field.text(&expected, findings) else {
+    let Some(text) = field.text(&expected) else {
         return false;
     };
     if !FRAMES.contains(&text) {
-        findings.error_with_help(
+        field.error_with_help(
             Mistake::UnknownChoice,
-            field.span(),
-            format!(
-                "{}: `{}` must be {expected}, found `{text}`",
-                field.subject, field.key
-            ),
+            format!(": `{}` must be {expected}, found `{text}`", field.key),
             "no such choice",
             did_you_mean(text, FRAMES),
         );

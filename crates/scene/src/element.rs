@@ -6,18 +6,21 @@ use joints::{ArgumentError, FORMER_TYPES};
 use model::registry::{ConstraintDefinition, ForceDefinition};
 use model::{BodyRef, ConstraintKernels, Definitions, ForceKernels, Registry};
 
+use crate::active::ACTIVE;
+use crate::argument_source::ArgumentSource;
 use crate::arguments::Arguments;
-use crate::between::Between;
-use crate::bodies::Bodies;
+use crate::bearings::Bearings;
+use crate::between::JointMarkers;
 use crate::connection;
 use crate::direction::Directions;
-use crate::findings::Findings;
 use crate::function::Domain;
+use crate::joint_name::References;
 use crate::key::TYPE;
 use crate::mistake::Mistake;
 use crate::nearest::{list, meant, nearest};
-use crate::place::{self, Place};
+use crate::place;
 use crate::section;
+use crate::source_map::Entry;
 use crate::space::{self, SceneSpace};
 use crate::table::{Table, belongs};
 
@@ -59,8 +62,8 @@ impl<S: SceneSpace> Definition for ForceDefinition<S> {
 }
 
 /// An element whose definition is known, complete or not.
-pub(crate) struct Read<'r, D: Definition> {
-    pub(crate) definition: &'r D,
+pub(crate) struct ElementRead<'d, D: Definition> {
+    pub(crate) definition: &'d D,
     /// Its bodies and the element, if everything could be read.
     pub(crate) element: Option<(Vec<BodyRef>, D::Element)>,
     pub(crate) arguments: Arguments,
@@ -130,10 +133,9 @@ impl<S: SceneSpace> std::fmt::Display for Types<'_, S> {
 pub(crate) fn scene_type<S: SceneSpace>(
     table: &mut Table,
     types: &Types<S>,
-    findings: &mut Findings,
 ) -> Option<&'static str> {
-    let field = table.needed(TYPE, types, findings)?;
-    let name = field.text("the name of a type", findings)?;
+    let field = table.needed(TYPE, types)?;
+    let name = field.text("the name of a type")?;
     if let Some(known) = types.known.iter().find(|known| **known == name) {
         return Some(known);
     }
@@ -170,10 +172,9 @@ pub(crate) fn scene_type<S: SceneSpace>(
         },
     };
     let all = || format!("the types of a {} are {}", types.kind, types);
-    findings.error_with_help(
+    field.error_with_help(
         Mistake::UnknownType,
-        field.span(),
-        format!("{} has the unknown type `{name}`", table.subject),
+        format!(" has the unknown type `{name}`"),
         label,
         help.or_else(|| Some(all())),
     );
@@ -182,40 +183,60 @@ pub(crate) fn scene_type<S: SceneSpace>(
 
 /// Reads everything that the definitions of one scene type accept. Returns `None` and reports if
 /// none of them fits.
-pub(crate) fn read<'r, D: Definition>(
+pub(crate) fn read<'d, D: Definition>(
     table: &mut Table,
-    definitions: &[&'r D],
-    bodies: &Bodies<D::Space>,
+    definitions: &[&'d D],
+    references: &References<'_, '_, '_, D::Space>,
     domains: &mut Vec<Domain>,
-    findings: &mut Findings,
-) -> Option<Read<'r, D>> {
+) -> Option<ElementRead<'d, D>> {
     let specs: Vec<&'static Spec> = definitions.iter().map(|d| d.spec()).collect();
-    let chosen = connection::named(table, &specs, &bodies.names, findings).and_then(|named| {
-        let at = connection::choose(table, &specs, named.len(), findings)?;
-        Some((at, named))
-    });
-    let Some((at, named)) = chosen else {
-        connection::forgive(table, &specs);
-        return None;
-    };
+    let bodies = references.bodies;
+    let (at, slots, source);
+    if let Some(borne) = specs.iter().position(|spec| spec.bearings) {
+        let bearings = Bearings::read(table, references);
+        slots = bearings.slots();
+        (at, source) = (borne, ArgumentSource::Bearings(bearings));
+    } else {
+        let chosen = connection::named(table, &specs, &bodies.names).and_then(|named| {
+            let at = connection::choose(table, &specs, named.len())?;
+            Some((at, named))
+        });
+        let Some((chosen, named)) = chosen else {
+            connection::forgive(table, &specs);
+            return None;
+        };
+        slots = connection::slots(table, specs[chosen], named, &bodies.names);
+        let between = JointMarkers::read(table, specs[chosen], &slots, bodies);
+        (at, source) = (
+            chosen,
+            between.map_or(ArgumentSource::Text, ArgumentSource::Markers),
+        );
+    }
     let (spec, definition) = (specs[at], definitions[at]);
-    let slots = connection::slots(table, spec, named, &bodies.names, findings);
-    let between = Between::read(table, spec, &slots, bodies, findings);
-    let place = match &between {
-        Some(between) => Place {
-            points: between.points(spec, bodies),
-            span: between.span.clone(),
-        },
-        None => place::read(table, spec, &slots, bodies, findings),
+    let of_points = match source {
+        ArgumentSource::Markers(_) => Vec::new(),
+        ArgumentSource::Text | ArgumentSource::Bearings(_) => place::slots_of_points(spec),
     };
-    let directions = Directions::read(table, spec, &slots, (bodies, between), findings);
-    let mut arguments = Arguments::read(table, spec, place, &directions, domains, findings);
-    let subject = table.subject.clone();
-    let built = arguments.build::<D::Space, _>(spec, &subject, definition.constructor(), findings);
+    let place = place::read(table, spec, (&of_points, &slots), bodies);
+    let directions = Directions::read(table, spec, &slots, (bodies, source));
+    let mut own = Vec::new();
+    let mut arguments = Arguments::read(table, spec, place, &directions, &mut own);
+    if references.is_active {
+        domains.append(&mut own);
+    }
+    let built = arguments.build::<D::Space, _>(table, spec, definition.constructor());
     let slots: Option<Vec<BodyRef>> = slots.into_iter().collect();
-    Some(Read {
+    Some(ElementRead {
         definition,
         element: slots.zip(built),
         arguments,
     })
+}
+
+/// The end of every table of an element: whether it takes part has been read.
+pub(crate) fn end(mut table: Table, name: &str, is_active: bool) -> Entry {
+    table.optional(&ACTIVE);
+    let entry = Entry::switched(name, &table, is_active);
+    table.close();
+    entry
 }

@@ -1,6 +1,7 @@
 //! One value of the file, read as the expected type. If it has another type, both are reported.
 
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::ops::Range;
 use std::rc::Rc;
 use std::slice;
@@ -37,6 +38,8 @@ pub(crate) struct Field<'t> {
     pub(crate) value: &'t Spanned<DeValue<'t>>,
     /// What its numbers mean.
     pub(crate) language: &'t Language,
+    /// Where problems are reported.
+    pub(crate) findings: &'t Findings<'t>,
 }
 
 impl<'t> Field<'t> {
@@ -44,28 +47,45 @@ impl<'t> Field<'t> {
         self.value.span()
     }
 
+    /// Reports an error at the value; the message continues the description of the table.
+    pub(crate) fn error(
+        &self,
+        code: impl Into<Code>,
+        message: impl Display,
+        label: impl Into<String>,
+    ) {
+        self.error_with_help(code, message, label, None);
+    }
+
+    /// Reports an error at the value with advice.
+    pub(crate) fn error_with_help(
+        &self,
+        code: impl Into<Code>,
+        message: impl Display,
+        label: impl Into<String>,
+        help: impl Into<Option<String>>,
+    ) {
+        let message = format!("{}{message}", self.subject);
+        let findings = self.findings;
+        findings.error_with_help(code, self.span(), message, label, help);
+    }
+
     /// Reports that a value of another kind was expected.
-    pub(crate) fn mismatch(&self, expected: &str, findings: &mut Findings) {
-        self.is_not(expected, Mistake::Type, None, findings);
+    pub(crate) fn mismatch(&self, expected: &str) {
+        self.is_not(expected, Mistake::Type, None);
     }
 
     /// Reports a list of `found` values which is not the expected one of `n`.
-    pub(crate) fn miscount(&self, expected: &str, found: usize, n: usize, findings: &mut Findings) {
+    pub(crate) fn miscount(&self, expected: &str, found: usize, n: usize) {
         let mistake = if found == n {
             Mistake::Type
         } else {
             Mistake::Count
         };
-        self.is_not(expected, mistake, None, findings);
+        self.is_not(expected, mistake, None);
     }
 
-    fn is_not(
-        &self,
-        expected: &str,
-        mistake: Mistake,
-        help: Option<String>,
-        findings: &mut Findings,
-    ) {
+    fn is_not(&self, expected: &str, mistake: Mistake, help: Option<String>) {
         let text = self.value.get_ref().as_str();
         let of_text = || {
             text.filter(|_| expected.contains("number"))
@@ -80,12 +100,10 @@ impl<'t> Field<'t> {
                     }
                 })
         };
-        findings.error_with_help(
+        self.error_with_help(
             mistake,
-            self.span(),
             format!(
-                "{}: `{}` must be {expected}, found {}",
-                self.subject,
+                ": `{}` must be {expected}, found {}",
                 self.key,
                 found(self.value.get_ref())
             ),
@@ -95,19 +113,19 @@ impl<'t> Field<'t> {
     }
 
     /// A text.
-    pub(crate) fn text(&self, expected: &str, findings: &mut Findings) -> Option<&'t str> {
+    pub(crate) fn text(&self, expected: &str) -> Option<&'t str> {
         let text = self.value.get_ref().as_str();
         if text.is_none() {
-            self.mismatch(expected, findings);
+            self.mismatch(expected);
         }
         text
     }
 
     /// `true` or `false`.
-    pub(crate) fn boolean(&self, findings: &mut Findings) -> Option<bool> {
+    pub(crate) fn boolean(&self) -> Option<bool> {
         let value = self.value.get_ref().as_bool();
         if value.is_none() {
-            self.mismatch("true or false", findings);
+            self.mismatch("true or false");
         }
         value
     }
@@ -119,77 +137,61 @@ impl<'t> Field<'t> {
     }
 
     /// A finite number of this dimension.
-    pub(crate) fn number(&self, of: Dimension, findings: &mut Findings) -> Option<f64> {
-        self.number_expected("a number", of, findings)
+    pub(crate) fn number(&self, of: Dimension) -> Option<f64> {
+        self.number_expected("a number", of)
     }
 
     /// A finite number of this dimension; `expected` says more about it.
-    pub(crate) fn number_expected(
-        &self,
-        expected: &str,
-        of: Dimension,
-        findings: &mut Findings,
-    ) -> Option<f64> {
-        let number = self.judged_later(expected, of, findings)?;
-        warn_of_degrees(slice::from_ref(self), &[number], findings);
+    pub(crate) fn number_expected(&self, expected: &str, of: Dimension) -> Option<f64> {
+        let number = self.judged_later(expected, of)?;
+        warn_of_degrees(slice::from_ref(self), &[number]);
         Some(number.value)
     }
 
     /// A finite number of this dimension, before anybody asks whether it is plausible.
-    fn judged_later(
-        &self,
-        expected: &str,
-        of: Dimension,
-        findings: &mut Findings,
-    ) -> Option<Number> {
-        let written = self.quantity(expected, self.language, findings)?;
+    fn judged_later(&self, expected: &str, of: Dimension) -> Option<Number> {
+        let written = self.quantity(expected, self.language)?;
         let bases = self.language.bases();
         match written.at(of, bases) {
             Ok(q) => {
-                self.warn_if_cancelled(q, findings);
+                self.warn_if_cancelled(q);
                 let one = Quantity::bare(Dd::ONE).at(of, bases);
                 let scale = one.map_or(1.0, Quantity::to_f64);
                 if written.dimension.is_none() && scale != 1.0 {
-                    findings.scaled(self.span().start, scale);
+                    self.findings.scaled(self.span().start, scale);
                 }
                 Some(Number::new(q.to_f64(), &written, of, bases.angle))
             }
             Err(problem) => {
                 let span = 0..self.value.get_ref().as_str().unwrap_or_default().len();
-                self.report(Fault { span, problem }, self.language, findings);
+                self.report(Fault { span, problem }, self.language);
                 None
             }
         }
     }
 
     /// A finite number, or the value of an expression; bare numbers have no dimension yet.
-    pub(crate) fn quantity(
-        &self,
-        expected: &str,
-        language: &Language,
-        findings: &mut Findings,
-    ) -> Option<Quantity> {
+    pub(crate) fn quantity(&self, expected: &str, language: &Language) -> Option<Quantity> {
         if let Some(text) = self.value.get_ref().as_str().filter(|_| language.computes) {
             let faults = match expression::evaluate(text, language) {
                 Ok(q) => return Some(q),
                 Err(faults) => faults,
             };
             for fault in faults {
-                self.report(fault, language, findings);
+                self.report(fault, language);
             }
             return None;
         }
         let Some(value) = as_number(self.value.get_ref()) else {
-            self.mismatch(expected, findings);
+            self.mismatch(expected);
             return None;
         };
         if !is_usable(value) {
-            findings.error(
+            self.error(
                 Mistake::NotFinite,
-                self.span(),
                 format!(
-                    "{}: `{}` is {value:?}, need a finite number up to {LARGEST:e}",
-                    self.subject, self.key
+                    ": `{}` is {value:?}, need a finite number up to {LARGEST:e}",
+                    self.key
                 ),
                 "not a usable number",
             );
@@ -202,22 +204,16 @@ impl<'t> Field<'t> {
     }
 
     /// A law along a measure of dimension `of`, with a force or torque of dimension `result`.
-    pub(crate) fn law(
-        &self,
-        expected: &str,
-        of: Dimension,
-        result: Dimension,
-        findings: &mut Findings,
-    ) -> Option<Law> {
+    pub(crate) fn law(&self, expected: &str, of: Dimension, result: Dimension) -> Option<Law> {
         let Some(text) = self.value.get_ref().as_str() else {
-            let value = self.number_expected(expected, result, findings)?;
+            let value = self.number_expected(expected, result)?;
             return Law::new(&[Operation::Number(value)]).ok();
         };
         match expression::law(text, of, result, self.language) {
             Ok(law) => Some(law),
             Err(faults) => {
                 for fault in faults {
-                    self.report(fault, self.language, findings);
+                    self.report(fault, self.language);
                 }
                 None
             }
@@ -225,21 +221,21 @@ impl<'t> Field<'t> {
     }
 
     /// Reports what is wrong with an expression, at its place.
-    fn report(&self, fault: Fault, language: &Language, findings: &mut Findings) {
+    fn report(&self, fault: Fault, language: &Language) {
         let Fault { span, problem } = fault;
         let mut label = problem.label().to_owned();
         let mut help = problem.help();
         if let Problem::UnknownName { name } | Problem::UnknownFunction { name } = &problem {
-            match findings.suggest(name, language.names()) {
+            match self.findings.suggest(name, language.names()) {
                 Some(near) => label = format!("did you mean `{near}`?"),
                 None if help.is_some() => {}
                 None => help = nearest::all("parameters", language.own_names()),
             }
         }
         let message = format!("{}: `{}`: {problem}", self.subject, self.key);
-        findings.error_with_help(
+        self.findings.error_with_help(
             Mistake::from(&problem),
-            self.part(span, findings),
+            self.part(span),
             message,
             label,
             help,
@@ -247,11 +243,11 @@ impl<'t> Field<'t> {
     }
 
     /// Warns of digits that cancel.
-    fn warn_if_cancelled(&self, q: Quantity, findings: &mut Findings) {
+    fn warn_if_cancelled(&self, q: Quantity) {
         let value = q.to_f64();
         let share = q.error / value.abs();
         if value != 0.0 && share > CANCELLED {
-            findings.warning(
+            self.findings.warning(
                 const { Code::new(190) },
                 self.span(),
                 format!(
@@ -265,21 +261,21 @@ impl<'t> Field<'t> {
     }
 
     /// A whole number within the range of the type.
-    pub(crate) fn integer(&self, expected: &str, findings: &mut Findings) -> Option<i64> {
+    pub(crate) fn integer(&self, expected: &str) -> Option<i64> {
         let value = match self.value.get_ref() {
             DeValue::Integer(n) => i64::from_str_radix(n.as_str(), n.radix()).ok(),
             _ => None,
         };
         if value.is_none() {
-            self.mismatch(expected, findings);
+            self.mismatch(expected);
         }
         value
     }
 
     /// The values of a list, under the same key.
-    pub(crate) fn items(&self, expected: &str, findings: &mut Findings) -> Option<Vec<Self>> {
+    pub(crate) fn items(&self, expected: &str) -> Option<Vec<Self>> {
         let Some(array) = self.value.get_ref().as_array() else {
-            self.mismatch(expected, findings);
+            self.mismatch(expected);
             return None;
         };
         let item = |value| Self {
@@ -295,24 +291,19 @@ impl<'t> Field<'t> {
         n: usize,
         expected: &str,
         of: impl Fn(usize) -> Dimension,
-        findings: &mut Findings,
     ) -> Option<Vec<f64>> {
-        let items = self.items(expected, findings)?;
+        let items = self.items(expected)?;
         let is_nested = |item: &Self| item.value.get_ref().is_array();
         if items.len() != n || items.iter().any(is_nested) {
-            self.miscount(expected, items.len(), n, findings);
+            self.miscount(expected, items.len(), n);
             return None;
         }
-        each(&items, of, findings)
+        each(&items, of)
     }
 
     /// A list of any number of finite numbers, with the dimension of each.
-    pub(crate) fn any_numbers(
-        &self,
-        of: impl Fn(usize) -> Dimension,
-        findings: &mut Findings,
-    ) -> Option<Vec<f64>> {
-        each(&self.items("a list of numbers", findings)?, of, findings)
+    pub(crate) fn any_numbers(&self, of: impl Fn(usize) -> Dimension) -> Option<Vec<f64>> {
+        each(&self.items("a list of numbers")?, of)
     }
 
     /// The components of a vector, finite numbers of one dimension.
@@ -320,34 +311,28 @@ impl<'t> Field<'t> {
         &self,
         expected: &str,
         of: Dimension,
-        findings: &mut Findings,
     ) -> Option<S::Vector<f64>> {
         let length = self.value.get_ref().as_array().map(|list| list.len());
         if let Some(n) = length
             && let Some(space) = space::of_length(S::NAME, n)
         {
             let help = format!("vectors of {n} components belong to `space = \"{space}\"`");
-            self.is_not(expected, Mistake::Count, Some(help), findings);
+            self.is_not(expected, Mistake::Count, Some(help));
             return None;
         }
-        let numbers = self.numbers(S::DIM, expected, |_| of, findings)?;
+        let numbers = self.numbers(S::DIM, expected, |_| of)?;
         S::of_numbers(&numbers)
     }
 
     /// A matrix: three rows of three numbers.
-    pub(crate) fn matrix(
-        &self,
-        expected: &str,
-        of: Dimension,
-        findings: &mut Findings,
-    ) -> Option<[[f64; 3]; 3]> {
-        let rows = self.items(expected, findings)?;
+    pub(crate) fn matrix(&self, expected: &str, of: Dimension) -> Option<[[f64; 3]; 3]> {
+        let rows = self.items(expected)?;
         if rows.len() != 3 {
-            self.miscount(expected, rows.len(), 3, findings);
+            self.miscount(expected, rows.len(), 3);
             return None;
         }
         let rows = all(&rows, |row| {
-            row.vector::<Space3>("a row of three numbers", of, findings)
+            row.vector::<Space3>("a row of three numbers", of)
         });
         rows?.try_into().ok()
     }
@@ -357,34 +342,36 @@ impl<'t> Field<'t> {
         &self,
         n: usize,
         expected: &str,
-        findings: &mut Findings,
     ) -> Option<Vec<S::Vector<f64>>> {
-        let items = self.items(expected, findings)?;
+        let items = self.items(expected)?;
         if items.len() != n || items.iter().any(|item| !item.value.get_ref().is_array()) {
-            self.miscount(expected, items.len(), n, findings);
+            self.miscount(expected, items.len(), n);
             return None;
         }
-        all(&items, |item| {
-            item.vector::<S>(S::POINT, Dimension::LENGTH, findings)
-        })
+        all(&items, |item| item.vector::<S>(S::POINT, Dimension::LENGTH))
     }
 
     /// A table.
-    pub(crate) fn table(&self, expected: &str, findings: &mut Findings) -> Option<Table<'t>> {
+    pub(crate) fn table(&self, expected: &str) -> Option<Table<'t>> {
         let Some(entries) = self.value.get_ref().as_table() else {
-            self.mismatch(expected, findings);
+            self.mismatch(expected);
             return None;
         };
         let subject = format!("{}: `{}`", self.subject, self.key);
-        Some(Table::new(subject, self.span(), entries, self.language))
+        Some(Table::new(
+            subject,
+            self.span(),
+            entries,
+            (self.language, self.findings),
+        ))
     }
 
     /// The place of a part of its text in the file; the whole value where the text is written with
     /// escapes.
-    pub(crate) fn part(&self, part: Range<usize>, findings: &Findings) -> Range<usize> {
+    pub(crate) fn part(&self, part: Range<usize>) -> Range<usize> {
         let whole = self.span();
         let text = self.value.get_ref().as_str().unwrap_or_default();
-        let written = findings.source.text().get(whole.clone());
+        let written = self.findings.source.text().get(whole.clone());
         match written.unwrap_or_default().find(text) {
             Some(at) if !text.is_empty() => {
                 let begin = whole.start + at;
@@ -396,27 +383,21 @@ impl<'t> Field<'t> {
 }
 
 /// Reads numbers with the dimension of each.
-fn each(
-    items: &[Field],
-    of: impl Fn(usize) -> Dimension,
-    findings: &mut Findings,
-) -> Option<Vec<f64>> {
+fn each(items: &[Field], of: impl Fn(usize) -> Dimension) -> Option<Vec<f64>> {
     let mut k = 0..;
-    let numbers = all(items, |item| {
-        item.judged_later("a number", of(k.next()?), findings)
-    })?;
-    warn_of_degrees(items, &numbers, findings);
+    let numbers = all(items, |item| item.judged_later("a number", of(k.next()?)))?;
+    warn_of_degrees(items, &numbers);
     Some(numbers.iter().map(|number| number.value).collect())
 }
 
 /// Warns if numbers of these fields look like degrees.
-fn warn_of_degrees(fields: &[Field], numbers: &[Number], findings: &mut Findings) {
+fn warn_of_degrees(fields: &[Field], numbers: &[Number]) {
     let Some(language) = fields.first().map(|field| field.language) else {
         return;
     };
     if let Some(Degrees { at, message, help }) = degrees(numbers, language) {
         let Field { subject, key, .. } = &fields[at];
-        findings.warning(
+        fields[at].findings.warning(
             const { Code::new(192) },
             fields[at].span(),
             format!("{subject}: `{key}` {message}"),

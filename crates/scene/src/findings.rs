@@ -1,6 +1,6 @@
 //! Problems found while reading. Reading continues after each of them.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 use std::hash::Hash;
@@ -27,11 +27,19 @@ pub(crate) const LISTED: usize = 5000;
 /// Largest number of warnings of one kind that are listed; the others are counted.
 const WARNED: usize = 10;
 
-/// The problems of a file, in the order in which they are found.
+/// The problems of a file, in the order in which they are found. Tables and fields refer to them,
+/// so that each value can report what is wrong with it.
 pub(crate) struct Findings<'s> {
     /// The text to which places refer.
     pub(crate) source: &'s SourceText,
-    list: Vec<Diagnostic>,
+    lists: RefCell<Lists>,
+    compared: Cell<usize>,
+}
+
+/// What was found.
+#[derive(Default)]
+struct Lists {
+    problems: Vec<Diagnostic>,
     /// Scenes with these can be used, but are probably not what was intended.
     warnings: Vec<Diagnostic>,
     /// Numbers of warnings of each kind: listed, and more.
@@ -44,56 +52,49 @@ pub(crate) struct Findings<'s> {
     explained: Vec<usize>,
     /// Number of problems that are not listed.
     more: usize,
-    compared: Cell<usize>,
 }
 
 impl<'s> Findings<'s> {
     pub(crate) fn new(source: &'s SourceText) -> Self {
         Self {
             source,
-            list: Vec::new(),
-            warnings: Vec::new(),
-            warned: BTreeMap::new(),
-            silenced: Vec::new(),
-            scales: Vec::new(),
-            explained: Vec::new(),
-            more: 0,
+            lists: RefCell::default(),
             compared: Cell::new(0),
         }
     }
 
     /// Reports a problem.
-    pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
+    pub(crate) fn report(&self, diagnostic: Diagnostic) {
         if self.is_full() {
-            self.more += 1;
+            self.count(1);
         } else {
-            self.list.push(diagnostic);
+            self.lists.borrow_mut().problems.push(diagnostic);
         }
     }
 
     /// The index of the next problem, for [`Findings::explain`].
     pub(crate) fn next(&self) -> usize {
-        self.list.len()
+        self.lists.borrow().problems.len()
     }
 
     /// Removes a problem that is a consequence of another one: one mistake gives one message.
-    pub(crate) fn explain(&mut self, place: usize) {
-        self.explained.push(place);
+    pub(crate) fn explain(&self, place: usize) {
+        self.lists.borrow_mut().explained.push(place);
     }
 
     /// Whether further problems are only counted, so that their places are not needed.
     pub(crate) fn is_full(&self) -> bool {
-        self.list.len() >= LISTED
+        self.next() >= LISTED
     }
 
     /// Counts problems without describing them.
-    pub(crate) fn count(&mut self, more: usize) {
-        self.more += more;
+    pub(crate) fn count(&self, more: usize) {
+        self.lists.borrow_mut().more += more;
     }
 
     /// Reports an error with one place.
     pub(crate) fn error(
-        &mut self,
+        &self,
         code: impl Into<Code>,
         span: Range<usize>,
         message: impl Into<String>,
@@ -107,7 +108,7 @@ impl<'s> Findings<'s> {
 
     /// Reports an error with one place and advice.
     pub(crate) fn error_with_help(
-        &mut self,
+        &self,
         code: impl Into<Code>,
         span: Range<usize>,
         message: impl Into<String>,
@@ -121,49 +122,51 @@ impl<'s> Findings<'s> {
     }
 
     /// Notes that a bare number at a place stands for `scale` in SI.
-    pub(crate) fn scaled(&mut self, at: usize, scale: f64) {
-        self.scales.push((at, scale));
+    pub(crate) fn scaled(&self, at: usize, scale: f64) {
+        self.lists.borrow_mut().scales.push((at, scale));
     }
 
     /// What was noted of bare numbers.
-    pub(crate) fn take_scales(&mut self) -> Vec<(usize, f64)> {
-        std::mem::take(&mut self.scales)
+    pub(crate) fn take_scales(&self) -> Vec<(usize, f64)> {
+        std::mem::take(&mut self.lists.borrow_mut().scales)
     }
 
     /// Leaves out warnings with this code.
-    pub(crate) fn silence(&mut self, code: Code) {
-        self.silenced.push(code);
+    pub(crate) fn silence(&self, code: Code) {
+        self.lists.borrow_mut().silenced.push(code);
     }
 
     /// Adds a warning, which does not make the file invalid; its advice ends with how to silence
     /// it. After [`WARNED`] of a kind the others are counted.
     pub(crate) fn warning(
-        &mut self,
+        &self,
         code: Code,
         span: Range<usize>,
         message: impl Into<String>,
         label: &str,
         help: &str,
     ) {
-        let (listed, more) = self.warned.entry(code).or_default();
+        let lists = &mut *self.lists.borrow_mut();
+        let (listed, more) = lists.warned.entry(code).or_default();
         if *listed == WARNED {
             *more += 1;
             return;
         }
         *listed += 1;
         let help = format!("{help}; if it is meant, `silence = [\"{code}\"]` in `[scene]`");
-        self.warnings.push(Diagnostic {
+        lists.warnings.push(Diagnostic {
             severity: Severity::Warning,
             ..Diagnostic::error(code, self.source, span, message, label).help(help)
         });
     }
 
     /// The warnings in the order of the file. The last one of a kind says how many are not listed.
-    pub(crate) fn take_warnings(&mut self) -> Vec<Diagnostic> {
-        let mut warnings = std::mem::take(&mut self.warnings);
-        warnings.retain(|d| !self.silenced.contains(&d.code));
+    pub(crate) fn take_warnings(&self) -> Vec<Diagnostic> {
+        let lists = &mut *self.lists.borrow_mut();
+        let mut warnings = std::mem::take(&mut lists.warnings);
+        warnings.retain(|d| !lists.silenced.contains(&d.code));
         warnings.sort_by_key(|d| d.primary.span.start);
-        for (code, (_, more)) in std::mem::take(&mut self.warned) {
+        for (code, (_, more)) in std::mem::take(&mut lists.warned) {
             let of_kind = warnings.iter_mut().rfind(|d| d.code == code);
             if let Some(last) = of_kind.filter(|_| more > 0) {
                 last.message = format!("{} (and {more} more like this)", last.message);
@@ -174,7 +177,7 @@ impl<'s> Findings<'s> {
 
     /// Reports an error with the place of the item with which it is in conflict.
     pub(crate) fn collision(
-        &mut self,
+        &self,
         code: impl Into<Code>,
         span: Range<usize>,
         message: impl Into<String>,
@@ -192,7 +195,7 @@ impl<'s> Findings<'s> {
     /// Whether something that may be named once is named for the first time, here; else reports
     /// both places.
     pub(crate) fn is_first<T: Eq + Hash>(
-        &mut self,
+        &self,
         named: &mut HashMap<T, Range<usize>>,
         thing: T,
         span: Range<usize>,
@@ -226,7 +229,7 @@ impl<'s> Findings<'s> {
         known: impl IntoIterator<Item = &'a str>,
     ) -> Option<&'a str> {
         let compared = self.compared.get();
-        if self.list.len() >= SUGGESTIONS || compared >= COMPARED {
+        if self.next() >= SUGGESTIONS || compared >= COMPARED {
             return None;
         }
         let mut n = 0;
@@ -242,16 +245,22 @@ impl<'s> Findings<'s> {
 
     /// All problems in the order of the file, each once; if there are too many, the last one states
     /// the number of the others.
-    pub(crate) fn sorted(mut self) -> Vec<Diagnostic> {
-        self.explained.sort_unstable();
+    pub(crate) fn sorted(self) -> Vec<Diagnostic> {
+        let Lists {
+            mut problems,
+            mut explained,
+            more,
+            ..
+        } = self.lists.into_inner();
+        explained.sort_unstable();
         let mut place = 0;
-        self.list.retain(|_| {
+        problems.retain(|_| {
             place += 1;
-            self.explained.binary_search(&(place - 1)).is_err()
+            explained.binary_search(&(place - 1)).is_err()
         });
-        self.list.sort_by_key(|d| d.primary.span.start);
-        let mut unique: Vec<Diagnostic> = Vec::with_capacity(self.list.len());
-        for diagnostic in self.list {
+        problems.sort_by_key(|d| d.primary.span.start);
+        let mut unique: Vec<Diagnostic> = Vec::with_capacity(problems.len());
+        for diagnostic in problems {
             let start = diagnostic.primary.span.start;
             let mut here = unique
                 .iter()
@@ -261,12 +270,9 @@ impl<'s> Findings<'s> {
                 unique.push(diagnostic);
             }
         }
-        if self.more > 0 {
+        if more > 0 {
             let place = unique.last().map_or(0..0, |last| last.primary.span.clone());
-            let message = format!(
-                "and {} more problems: only the first {LISTED} are listed",
-                self.more
-            );
+            let message = format!("and {more} more problems: only the first {LISTED} are listed");
             let label = "the last one of the list";
             unique.push(Diagnostic {
                 severity: Severity::Note,

@@ -1,66 +1,48 @@
-//! `[[force]]`: applied forces of the registry.
+//! `[[force]]`: applied forces of the registry, and springs on angles of joints in space.
 
 use model::Force;
 
 use crate::active;
-use crate::bodies::Bodies;
 use crate::connection;
 use crate::element::{self, Types};
-use crate::findings::Findings;
 use crate::function::Domain;
+use crate::joint_name::References;
 use crate::source_map::Entry;
 use crate::space::SceneSpace;
+use crate::spring;
 use crate::table::Table;
 
-/// The forces that were read.
-pub(crate) struct Forces<S: SceneSpace> {
-    pub(crate) list: Vec<Force<S>>,
-    pub(crate) entries: Vec<Entry>,
-}
-
-impl<S: SceneSpace> Default for Forces<S> {
-    fn default() -> Self {
-        Self {
-            list: Vec::new(),
-            entries: Vec::new(),
-        }
+/// Reads one force with its place; `None` if it could not be read.
+pub(crate) fn read<S: SceneSpace>(
+    mut table: Table,
+    name: &str,
+    types: &Types<S>,
+    references: &References<'_, '_, '_, S>,
+    domains: &mut Vec<Domain>,
+) -> Option<(Force<S>, Entry)> {
+    let references = References {
+        is_active: active::read(&table),
+        ..*references
+    };
+    if spring::is_meant::<S>(&table) {
+        let force = spring::read(&mut table, name, &references);
+        let entry = element::end(table, name, references.is_active);
+        return Some((force?, entry));
     }
-}
-
-impl<S: SceneSpace> Forces<S> {
-    /// Reads one force.
-    pub(crate) fn read(
-        &mut self,
-        mut table: Table,
-        name: &str,
-        types: &Types<S>,
-        bodies: &Bodies<S>,
-        domains: &mut Vec<Domain>,
-        findings: &mut Findings,
-    ) {
-        let mut own = Vec::new();
-        let Some(scene_type) = element::scene_type(&mut table, types, findings) else {
-            connection::check_names(&mut table, &bodies.names, findings);
-            return;
-        };
-        let definitions: Vec<_> = types.registry.forces(scene_type).collect();
-        let read = element::read(&mut table, &definitions, bodies, &mut own, findings);
-        let is_active = active::read(&mut table, findings);
-        if is_active {
-            domains.append(&mut own);
-        }
-        let entry = Entry::switched(name, &table, is_active);
-        table.close(findings);
-        if let Some(read) = read
-            && let Some((bodies, element)) = read.element
-        {
-            self.list.push(Force {
-                name: name.to_owned(),
-                bodies,
-                element,
-                functions: read.arguments.functions,
-            });
-            self.entries.push(entry);
-        }
-    }
+    let Some(scene_type) = element::scene_type(&mut table, types) else {
+        connection::check_names(&mut table, &references.bodies.names);
+        return None;
+    };
+    let definitions: Vec<_> = types.registry.forces(scene_type).collect();
+    let read = element::read(&mut table, &definitions, &references, domains);
+    let entry = element::end(table, name, references.is_active);
+    let read = read?;
+    let (bodies, element) = read.element?;
+    let force = Force {
+        name: name.to_owned(),
+        bodies,
+        element,
+        functions: read.arguments.functions,
+    };
+    Some((force, entry))
 }

@@ -7,47 +7,46 @@ use model::{Function, FunctionError};
 
 use crate::dimension::Dimension;
 use crate::field::{Field, all};
-use crate::findings::Findings;
 use crate::key::{Interval, Key, TYPE, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
 /// A kind of function: the value of `type`, its keys, and its formula.
-pub(crate) struct Kind {
+pub(crate) struct FunctionKind {
     pub(crate) name: &'static str,
     pub(crate) keys: &'static [Key],
     pub(crate) doc: &'static str,
 }
 
 /// All kinds.
-pub(crate) const KINDS: [Kind; 6] = [
-    Kind {
+pub(crate) const KINDS: [FunctionKind; 6] = [
+    FunctionKind {
         name: "steps",
         keys: &[START, STEPS],
         doc: "start + Σ by·(10s³ − 15s⁴ + 6s⁵), s from 0 at `from` to 1 at `to`: smooth steps",
     },
-    Kind {
+    FunctionKind {
         name: "constant-rate",
         keys: &[RATE],
         doc: "rate·t",
     },
-    Kind {
+    FunctionKind {
         name: "polynomial",
         keys: &[COEFFICIENTS],
         doc: "c₀ + c₁·t + c₂·t² + …",
     },
-    Kind {
+    FunctionKind {
         name: "harmonic",
         keys: &[AMPLITUDE, OMEGA, PHASE, OFFSET],
         doc: "amplitude·sin(omega·t + phase) + offset",
     },
-    Kind {
+    FunctionKind {
         name: "table",
         keys: &[TIMES, VALUES],
         doc: "A smooth curve (C² spline) through points; the run must stay within its times",
     },
-    Kind {
+    FunctionKind {
         name: "linear-table",
         keys: &[TIMES, VALUES],
         doc: "Straight lines through points, two at one time are a jump; the run must stay within its times",
@@ -129,79 +128,73 @@ pub(crate) struct Domain {
 }
 
 /// Reads a function with values of this dimension. Tables leave their domain in `domains`.
-pub(crate) fn read(
-    field: &Field,
-    of: Dimension,
-    domains: &mut Vec<Domain>,
-    findings: &mut Findings,
-) -> Option<Function> {
+pub(crate) fn read(field: &Field, of: Dimension, domains: &mut Vec<Domain>) -> Option<Function> {
     const EXPECTED: &str = "a number or a function of time { type = … }";
     if field.may_be_number() {
-        let value = field.number(of, findings)?;
-        return accept(Function::constant(value), field, findings);
+        let value = field.number(of)?;
+        return accept(Function::constant(value), field);
     }
-    let mut table = field.table(EXPECTED, findings)?;
-    let kind = table.needed(TYPE, list(names()), findings)?;
-    let function = match kind.text(&list(names()), findings)? {
-        "steps" => steps(&mut table, of, findings),
+    let mut table = field.table(EXPECTED)?;
+    let kind = table.needed(TYPE, list(names()))?;
+    let function = match kind.text(&list(names()))? {
+        "steps" => steps(&mut table, of),
         "constant-rate" => {
-            let rate = number(&mut table, &RATE, of, findings);
-            rate.and_then(|rate| accept(Function::constant_rate(rate), field, findings))
+            let rate = number(&mut table, &RATE, of);
+            rate.and_then(|rate| accept(Function::constant_rate(rate), field))
         }
-        "polynomial" => polynomial(&mut table, of, field, findings),
-        "harmonic" => harmonic(&mut table, of, field, findings),
-        "table" => points(&mut table, of, Function::table, domains, findings),
-        "linear-table" => points(&mut table, of, Function::lines, domains, findings),
+        "polynomial" => polynomial(&mut table, of, field),
+        "harmonic" => harmonic(&mut table, of, field),
+        "table" => points(&mut table, of, Function::table, domains),
+        "linear-table" => points(&mut table, of, Function::lines, domains),
         unknown => {
-            findings.error_with_help(
+            kind.error_with_help(
                 Mistake::UnknownType,
-                kind.span(),
-                format!("{} has the unknown type `{unknown}`", table.subject),
+                format!(" has the unknown type `{unknown}`"),
                 "no such function of time",
                 did_you_mean(unknown, names()).or(Some(format!("there are {}", list(names())))),
             );
             return None;
         }
     };
-    table.close(findings);
+    table.close();
     function
 }
 
 /// The number under a key of a function with values of this dimension, or its default.
-fn number(table: &mut Table, key: &Key, of: Dimension, findings: &mut Findings) -> Option<f64> {
+fn number(table: &mut Table, key: &Key, of: Dimension) -> Option<f64> {
     match (table.optional(key), key.default) {
-        (Some(field), _) => field.number(key.unit_in(of), findings),
+        (Some(field), _) => field.number(key.unit_in(of)),
         (None, Some(default)) => default().as_f64(),
         (None, None) => {
-            table.required(key, findings);
+            table.required(key);
             None
         }
     }
 }
 
-fn steps(table: &mut Table, of: Dimension, findings: &mut Findings) -> Option<Function> {
-    let start = number(table, &START, of, findings);
-    let field = table.required(&STEPS, findings)?;
-    let items = field.items(STEPS.expected, findings)?;
-    let read = all(&items, |item| step(item, of, findings));
+fn steps(table: &mut Table, of: Dimension) -> Option<Function> {
+    let start = number(table, &START, of);
+    let field = table.required(&STEPS)?;
+    let items = field.items(STEPS.expected)?;
+    let read = all(&items, |item| step(item, of));
     let (start, mut steps) = (start?, read?);
     // The function reports only its first fault: report it, replace the step by a valid one and try
     // again.
     let mut faultless = true;
     for _ in 0..=items.len() {
-        if findings.is_full() {
+        if table.findings.is_full() {
             return None;
         }
         match Function::steps(start, &steps) {
             Ok(function) => return faultless.then_some(function),
             Err(FunctionError::EmptyStep { step, from, to }) => {
                 let error = FunctionError::EmptyStep { step, from, to };
-                refuse(&error, &items[step - 1], findings);
+                refuse(&error, &items[step - 1]);
                 steps[step - 1] = [0.0, 1.0, 0.0];
                 faultless = false;
             }
             Err(error) => {
-                refuse(&error, &field, findings);
+                refuse(&error, &field);
                 return None;
             }
         }
@@ -209,40 +202,30 @@ fn steps(table: &mut Table, of: Dimension, findings: &mut Findings) -> Option<Fu
     None
 }
 
-fn step(item: &Field, of: Dimension, findings: &mut Findings) -> Option<[f64; 3]> {
-    let mut table = item.table("a step { from = …, to = …, by = … }", findings)?;
-    let step = STEP_KEYS.map(|key| number(&mut table, &key, of, findings));
-    table.close(findings);
+fn step(item: &Field, of: Dimension) -> Option<[f64; 3]> {
+    let mut table = item.table("a step { from = …, to = …, by = … }")?;
+    let step = STEP_KEYS.map(|key| number(&mut table, &key, of));
+    table.close();
     let [from, to, by] = step;
     Some([from?, to?, by?])
 }
 
-fn polynomial(
-    table: &mut Table,
-    of: Dimension,
-    field: &Field,
-    findings: &mut Findings,
-) -> Option<Function> {
-    let list = table.required(&COEFFICIENTS, findings)?;
+fn polynomial(table: &mut Table, of: Dimension, field: &Field) -> Option<Function> {
+    let list = table.required(&COEFFICIENTS)?;
     let of = COEFFICIENTS.unit_in(of);
     // That of tᵏ is the k-th power of a second below the others.
     let power = |k: usize| i8::try_from(k).unwrap_or(i8::MAX);
-    let coefficients = list.any_numbers(|k| of.times(Dimension::PER_TIME, power(k)), findings)?;
-    accept(Function::polynomial(&coefficients), field, findings)
+    let coefficients = list.any_numbers(|k| of.times(Dimension::PER_TIME, power(k)))?;
+    accept(Function::polynomial(&coefficients), field)
 }
 
-fn harmonic(
-    table: &mut Table,
-    of: Dimension,
-    field: &Field,
-    findings: &mut Findings,
-) -> Option<Function> {
-    let amplitude = number(table, &AMPLITUDE, of, findings);
-    let omega = number(table, &OMEGA, of, findings);
-    let phase = number(table, &PHASE, of, findings);
-    let offset = number(table, &OFFSET, of, findings);
+fn harmonic(table: &mut Table, of: Dimension, field: &Field) -> Option<Function> {
+    let amplitude = number(table, &AMPLITUDE, of);
+    let omega = number(table, &OMEGA, of);
+    let phase = number(table, &PHASE, of);
+    let offset = number(table, &OFFSET, of);
     let function = Function::harmonic(amplitude?, omega?, phase?, offset?);
-    accept(function, field, findings)
+    accept(function, field)
 }
 
 fn points(
@@ -250,25 +233,24 @@ fn points(
     of: Dimension,
     through: impl Fn(&[f64], &[f64]) -> Result<Function, FunctionError>,
     domains: &mut Vec<Domain>,
-    findings: &mut Findings,
 ) -> Option<Function> {
-    let times = table.required(&TIMES, findings);
-    let values = table.required(&VALUES, findings);
+    let times = table.required(&TIMES);
+    let values = table.required(&VALUES);
     let (times, values) = (times?, values?);
-    let t = times.any_numbers(|_| TIMES.unit, findings);
-    let y = values.any_numbers(|_| VALUES.unit_in(of), findings);
+    let t = times.any_numbers(|_| TIMES.unit);
+    let y = values.any_numbers(|_| VALUES.unit_in(of));
     let (t, y) = (t?, y?);
     let function = match through(&t, &y) {
         Ok(function) => function,
         Err(error) => {
             let at = match &error {
                 FunctionError::NotIncreasing { index, .. } => times
-                    .items("a list", findings)
+                    .items("a list")
                     .and_then(|items| items.get(*index).cloned()),
                 FunctionError::Uneven { .. } => Some(values),
                 _ => None,
             };
-            refuse(&error, at.as_ref().unwrap_or(&times), findings);
+            refuse(&error, at.as_ref().unwrap_or(&times));
             return None;
         }
     };
@@ -283,17 +265,11 @@ fn points(
     Some(function)
 }
 
-fn accept(
-    function: Result<Function, FunctionError>,
-    field: &Field,
-    findings: &mut Findings,
-) -> Option<Function> {
-    function
-        .map_err(|error| refuse(&error, field, findings))
-        .ok()
+fn accept(function: Result<Function, FunctionError>, field: &Field) -> Option<Function> {
+    function.map_err(|error| refuse(&error, field)).ok()
 }
 
-fn refuse(error: &FunctionError, at: &Field, findings: &mut Findings) {
+fn refuse(error: &FunctionError, at: &Field) {
     let label = match error {
         FunctionError::EmptyStep { .. } => "ends before it begins",
         FunctionError::NotIncreasing { .. } => "not later than the time before it",
@@ -302,5 +278,5 @@ fn refuse(error: &FunctionError, at: &Field, findings: &mut Findings) {
         _ => "not possible",
     };
     let message = format!("{}: `{}`: {error}", at.subject, at.key);
-    findings.error(error.code(), at.span(), message, label);
+    at.findings.error(error.code(), at.span(), message, label);
 }

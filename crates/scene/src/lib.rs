@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | `limits` | largest size of a text |
 //! | `read` | the whole file, and the checks by the mechanism |
+//! | `heading`, `parts` | `[scene]`; the parts of the mechanism |
 //! | `section`, `names` | tables of the first level; names that may occur only once |
 //! | `language` | what numbers mean: format, units, parameters |
 //! | `expression`, `dimension` | a text to a number with its dimension; what fits where |
@@ -13,7 +14,9 @@
 //! | `space` | what the plane and space have different names and numbers for |
 //! | `body`, `marker`, `bodies`, `measure` | a body, places on bodies, and their names elsewhere; all of them; quantities between places |
 //! | `element` | common parts of joints and forces: type, `connection`, `place`, `direction`, `arguments` |
-//! | `joint`, `force` | joints and their drives; forces |
+//! | `argument_source`, `between`, `bearings` | points and axes from the table itself, from markers, from other joints |
+//! | `joint`, `drive`, `force` | joints, their drives, forces; `coupling` and `spring` are those without a definition |
+//! | `joint_read`, `joint_name`, `joint_measure` | joints as far as they could be read, as other tables name them, and their measures |
 //! | `active` | what is read and takes no part |
 //! | `function` | functions of time |
 //! | `start`, `simulate`, `reactions`, `combination` | requested computations |
@@ -24,24 +27,30 @@
 //! | `diagnostic`, `mistake`, `text`, `findings`, `nearest` | problems, their kinds and codes, lines and columns, suggested names |
 
 mod active;
+mod argument_source;
 mod arguments;
+mod bearings;
 mod between;
 mod bodies;
 mod body;
 mod combination;
 mod connection;
 mod coupling;
-mod dependent;
 mod diagnostic;
 mod dimension;
 mod direction;
+mod drive;
 mod element;
 mod expression;
 mod field;
 mod findings;
 mod force;
 mod function;
+mod heading;
 mod joint;
+mod joint_measure;
+mod joint_name;
+mod joint_read;
 mod key;
 mod language;
 mod limits;
@@ -51,6 +60,7 @@ mod measure;
 mod mistake;
 mod names;
 mod nearest;
+mod parts;
 mod place;
 mod plausible;
 mod reactions;
@@ -60,12 +70,12 @@ mod schema;
 mod section;
 mod silence;
 mod simulate;
+
 mod source_map;
 mod space;
 mod spring;
 mod start;
 mod table;
-mod teeth;
 mod template;
 mod text;
 mod tolerance;
@@ -76,7 +86,7 @@ pub use diagnostic::{Diagnostic, Label, Severity};
 pub use language::Units;
 pub use nearest::{ELSEWHERE, nearest};
 pub use reactions::{GroupContent, GroupRequest, Output, WantedReactions};
-pub use read::read;
+pub use read::{read, read_and_build};
 pub use scene::{Inactive, Scene};
 pub use schema::schema;
 pub use source_map::{Entry, SourceMap};

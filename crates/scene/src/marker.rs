@@ -8,7 +8,6 @@ use model::{Marker, SpaceKind};
 use crate::body::{BodyNames, read_orientation};
 use crate::dimension::Dimension;
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::all;
@@ -73,29 +72,22 @@ pub(crate) struct Markers {
 
 impl Markers {
     /// Reads one marker of bodies with these names.
-    pub(crate) fn read<S: SceneSpace>(
-        &mut self,
-        mut table: Table,
-        name: &str,
-        bodies: &BodyNames,
-        findings: &mut Findings,
-    ) {
-        let body = table.required(&BODY, findings);
-        let body = body.and_then(|field| bodies.find(&field, findings));
-        let point = table.needed(POINT.name, S::POINT, findings);
-        let point = point.and_then(|field| field.vector::<S>(S::POINT, POINT.unit, findings));
+    pub(crate) fn read<S: SceneSpace>(&mut self, mut table: Table, name: &str, bodies: &BodyNames) {
+        let body = table.of_key(&BODY).and_then(|field| bodies.find(&field));
+        let point = table.needed(POINT.name, S::POINT);
+        let point = point.and_then(|field| field.vector::<S>(S::POINT, POINT.unit));
         let (mut angle, mut orientation) = (None, None);
         if S::KIND == SpaceKind::Space3 {
             let field = table.optional(&ORIENTATION);
-            orientation = field.map(|field| read_orientation(&field, findings));
+            orientation = field.map(|field| read_orientation(&field));
         } else {
             let field = table.optional(&ANGLE);
-            angle = field.map(|field| field.number(ANGLE.unit, findings));
+            angle = field.map(|field| field.number(ANGLE.unit));
         }
-        let tolerance = tolerance::read(&mut table, &TOLERANCE, findings);
+        let tolerance = tolerance::read(&mut table, &TOLERANCE);
         let entry = Entry::of(name, &table);
         table.spaces(all_keys());
-        table.close(findings);
+        table.close();
         let at = self.list.len();
         let is_turned = angle != Some(None) && orientation != Some(None);
         let read = body.zip(point).filter(|_| is_turned);
@@ -126,19 +118,18 @@ impl Markers {
 
     /// The index of the marker with the name in this field. Returns `None` if it is unknown, which
     /// is reported, or could not be read, which has been.
-    pub(crate) fn index(&self, field: &Field, findings: &mut Findings) -> Option<usize> {
-        let name = field.text(NAME, findings)?;
+    pub(crate) fn index(&self, field: &Field) -> Option<usize> {
+        let name = field.text(NAME)?;
         if let Some(found) = self.by_name.get(name) {
             return *found;
         }
         let names = || self.by_name.keys().map(String::as_str);
         let mut sorted: Vec<&str> = names().collect();
         sorted.sort_unstable();
-        let near = findings.suggest(name, sorted.iter().copied());
-        findings.error_with_help(
+        let near = field.findings.suggest(name, sorted.iter().copied());
+        field.error_with_help(
             Mistake::UnknownMarker,
-            field.span(),
-            format!("{} refers to the unknown marker `{name}`", field.subject),
+            format!(" refers to the unknown marker `{name}`"),
             "no such marker",
             match near {
                 Some(near) => Some(format!("did you mean `{near}`?")),
@@ -149,7 +140,7 @@ impl Markers {
     }
 
     /// Like [`Self::index`], the marker itself.
-    pub(crate) fn find(&self, field: &Field, findings: &mut Findings) -> Option<&Marker> {
-        self.index(field, findings).map(|at| &self.list[at])
+    pub(crate) fn find(&self, field: &Field) -> Option<&Marker> {
+        self.index(field).map(|at| &self.list[at])
     }
 }

@@ -3,7 +3,6 @@
 use model::{Measure, MeasureKind, SpaceKind};
 
 use crate::body::GROUND;
-use crate::findings::Findings;
 use crate::key::{Key, TYPE, Takes};
 use crate::marker::Markers;
 use crate::mistake::Mistake;
@@ -46,48 +45,34 @@ fn in_space() -> Vec<&'static str> {
     kinds(SpaceKind::Space3)
 }
 
-/// The measures that were read, with their places.
-#[derive(Default)]
-pub(crate) struct Measures {
-    pub(crate) list: Vec<Measure>,
-    pub(crate) entries: Vec<Entry>,
+/// Reads one measure with its place; `None` if it could not be read.
+pub(crate) fn read(
+    mut table: Table,
+    name: &str,
+    space: SpaceKind,
+    markers: &Markers,
+) -> Option<(Measure, Entry)> {
+    let kind = kind(&mut table, space);
+    let between = between(&mut table, markers);
+    let entry = Entry::of(name, &table);
+    table.close();
+    let measure = Measure {
+        name: name.to_owned(),
+        kind: kind?,
+        between: between?,
+    };
+    Some((measure, entry))
 }
 
-impl Measures {
-    /// Reads one measure.
-    pub(crate) fn read(
-        &mut self,
-        mut table: Table,
-        name: &str,
-        space: SpaceKind,
-        markers: &Markers,
-        findings: &mut Findings,
-    ) {
-        let kind = kind(&mut table, space, findings);
-        let between = between(&mut table, markers, findings);
-        let entry = Entry::of(name, &table);
-        table.close(findings);
-        if let Some((kind, between)) = kind.zip(between) {
-            self.list.push(Measure {
-                name: name.to_owned(),
-                kind,
-                between,
-            });
-            self.entries.push(entry);
-        }
-    }
-}
-
-fn kind(table: &mut Table, space: SpaceKind, findings: &mut Findings) -> Option<MeasureKind> {
-    let field = table.required(&KIND, findings)?;
-    let name = field.text(KIND.expected, findings)?;
+fn kind(table: &mut Table, space: SpaceKind) -> Option<MeasureKind> {
+    let field = table.required(&KIND)?;
+    let name = field.text(KIND.expected)?;
     let mut known = MeasureKind::ALL.into_iter();
     let found = known.find(|kind| kind.name() == name && kind.exists_in(space));
     if found.is_none() {
-        findings.error_with_help(
+        field.error_with_help(
             Mistake::UnknownType,
-            field.span(),
-            format!("{} has the unknown type `{name}`", table.subject),
+            format!(" has the unknown type `{name}`"),
             "unknown type",
             did_you_mean(name, kinds(space)).or(Some(format!(
                 "the types of a measure are {}",
@@ -99,22 +84,18 @@ fn kind(table: &mut Table, space: SpaceKind, findings: &mut Findings) -> Option<
 }
 
 /// Indices of the markers; `None` is the ground.
-fn between(
-    table: &mut Table,
-    markers: &Markers,
-    findings: &mut Findings,
-) -> Option<[Option<usize>; 2]> {
-    let field = table.required(&MARKERS, findings)?;
-    let items = field.items(MARKERS.expected, findings)?;
+fn between(table: &mut Table, markers: &Markers) -> Option<[Option<usize>; 2]> {
+    let field = table.required(&MARKERS)?;
+    let items = field.items(MARKERS.expected)?;
     if !(1..=2).contains(&items.len()) {
-        field.miscount(MARKERS.expected, items.len(), 2, findings);
+        field.miscount(MARKERS.expected, items.len(), 2);
         return None;
     }
     let read = items
         .iter()
         .map(|item| match item.value.get_ref().as_str() {
             Some(GROUND) => Some(None),
-            _ => markers.index(item, findings).map(Some),
+            _ => markers.index(item).map(Some),
         });
     let read: Vec<Option<Option<usize>>> = read.collect();
     let between = match read[..] {
@@ -122,6 +103,6 @@ fn between(
         [first, second] => [first?, second?],
         _ => return None,
     };
-    plausible::measure(&field, between, &markers.list, findings);
+    plausible::measure(&field, between, &markers.list);
     Some(between)
 }

@@ -16,21 +16,21 @@ use crate::table::Table;
 /// All names in their name spaces, including those of incomplete tables.
 pub(crate) struct Names {
     /// Bodies, markers and measures, which share the columns of one table.
-    pub(crate) bodies: Vec<Use>,
-    pub(crate) measures: Vec<Use>,
-    pub(crate) elements: Vec<Use>,
-    pub(crate) groups: Vec<Use>,
+    pub(crate) bodies: Vec<NameUse>,
+    pub(crate) measures: Vec<NameUse>,
+    pub(crate) elements: Vec<NameUse>,
+    pub(crate) groups: Vec<NameUse>,
     /// The space of the scene, with the names of its columns.
     pub(crate) space: SpaceKind,
 }
 
 /// A name and its place.
-pub(crate) struct Use {
+pub(crate) struct NameUse {
     name: String,
     span: Range<usize>,
 }
 
-impl Use {
+impl NameUse {
     pub(crate) fn of(name: &str, table: &Table) -> Self {
         Self {
             name: name.to_owned(),
@@ -54,12 +54,12 @@ impl Names {
     }
 
     /// Reports measures with the name of another column of the trajectory.
-    fn check_columns(&self, findings: &mut Findings) {
+    fn check_columns(&self, findings: &Findings) {
         let columns = self.space.columns();
         let measures: HashSet<&str> = self.measures.iter().map(|m| m.name.as_str()).collect();
         let places = self.bodies.iter().map(|place| place.name.as_str());
         let places: HashSet<&str> = places.filter(|name| !measures.contains(name)).collect();
-        for Use { name, span } in &self.measures {
+        for NameUse { name, span } in &self.measures {
             let is_column =
                 |(place, column): (&str, &str)| places.contains(place) && columns.contains(&column);
             if name == TIME || name.rsplit_once('.').is_some_and(is_column) {
@@ -76,7 +76,7 @@ impl Names {
     }
 
     /// Reports names that are used twice, and `ground`.
-    pub(crate) fn check(&self, map: &SourceMap, findings: &mut Findings) {
+    pub(crate) fn check(&self, map: &SourceMap, findings: &Findings) {
         for used in self.bodies.iter().chain(&self.elements) {
             if used.name == GROUND {
                 findings.error(

@@ -12,7 +12,6 @@ use crate::bodies::Bodies;
 use crate::connection::listed;
 use crate::dimension::Dimension;
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::marker::Markers;
 use crate::mistake::Mistake;
 use crate::nearest::list;
@@ -34,21 +33,39 @@ pub(crate) const POINT: &str = "point";
 
 /// The key of the place in the frames of the bodies.
 pub(crate) fn local_key(spec: &Spec) -> &'static str {
-    match listed(spec) {
-        1 => POINT,
-        _ => "points",
+    if listed(spec) == 1 || spec.bearings {
+        POINT
+    } else {
+        "points"
     }
 }
 
-/// Reads the place of a definition whose slots contain the bodies `slots`.
+/// The frames in which the points of such a key are, in words.
+fn frames(local_key: &str) -> &'static str {
+    match local_key {
+        POINT => "in the frame of the body",
+        _ => "in the frames of the bodies",
+    }
+}
+
+/// The slots of the bodies in whose frames the points are that a table gives: all of a definition,
+/// or the last one if bearings give the others.
+pub(crate) fn slots_of_points(spec: &Spec) -> Vec<usize> {
+    let mut slots: Vec<usize> = spec.slots_of_points().collect();
+    if spec.bearings {
+        slots.drain(..slots.len().saturating_sub(1));
+    }
+    slots
+}
+
+/// Reads the place of a definition whose slots contain the bodies `slots`: points of the bodies in
+/// the slots `of`.
 pub(crate) fn read<S: SceneSpace>(
     table: &mut Table,
     spec: &'static Spec,
-    slots: &[Option<BodyRef>],
+    (of, slots): (&[usize], &[Option<BodyRef>]),
     bodies: &Bodies<S>,
-    findings: &mut Findings,
 ) -> Place<S> {
-    let of: Vec<usize> = spec.slots_of_points().collect();
     let missing = |span| Place {
         points: vec![None; of.len()],
         span,
@@ -60,27 +77,25 @@ pub(crate) fn read<S: SceneSpace>(
     let (at, local) = (table.optional(AT), table.optional(local_key));
     match (at, local) {
         (Some(at), Some(local)) => {
-            findings.collision(
-                Mistake::Exclusive,
-                local.span(),
-                format!("{} takes `at` or `{local_key}`, not both", table.subject),
-                "and here in the frames of the bodies",
-                at.span(),
-                "the place is given here",
-            );
+            let label = format!("and here {}", frames(local_key));
+            let values = [
+                (at.span(), "the place is given here"),
+                (local.span(), &label),
+            ];
+            table.exclusive(format!("`at` or `{local_key}`"), values);
             missing(local.span())
         }
         (Some(at), None) => Place {
-            points: global(&at, spec, &of, slots, bodies, findings),
+            points: global(&at, spec, of, slots, bodies),
             span: at.span(),
         },
         (None, Some(local)) => Place {
             points: match local_key {
                 POINT => {
-                    let body = slots.first().copied().flatten();
-                    of_body(&local, of.len(), body, bodies, findings)
+                    let body = slots.get(of[0]).copied().flatten();
+                    of_body(&local, of.len(), body, bodies)
                 }
-                _ => by_body(&local, &of, slots, bodies, findings),
+                _ => by_body(&local, of, slots, bodies),
             },
             span: local.span(),
         },
@@ -89,11 +104,10 @@ pub(crate) fn read<S: SceneSpace>(
             if spec.points_apart {
                 form = format!("[{form}, …]");
             }
-            findings.error(Mistake::Missing,
-                table.header.clone(),
+            table.missing(
                 format!(
-                    "{} needs a place: `at = {form}` in global coordinates, or `{local_key}` in the frames of the bodies",
-                    table.subject
+                    " needs a place: `at = {form}` in global coordinates, or `{local_key}` {}",
+                    frames(local_key)
                 ),
                 "the place is missing here",
             );
@@ -109,26 +123,19 @@ fn global<S: SceneSpace>(
     of: &[usize],
     slots: &[Option<BodyRef>],
     bodies: &Bodies<S>,
-    findings: &mut Findings,
 ) -> Vec<Option<S::Vector<f64>>> {
     let fields = if spec.points_apart {
         let expected = format!("{} global points [{}, …]", of.len(), S::VECTOR);
-        several(at, of.len(), &expected, &bodies.markers, findings)
+        several(at, of.len(), &expected, &bodies.markers)
     } else {
         Some(vec![at.clone()])
     };
     let fields = fields.unwrap_or_default();
-    let read = |field: &Field| point(field, S::GLOBAL_POINT, bodies, findings);
+    let read = |field: &Field| point(field, S::GLOBAL_POINT, bodies);
     let read: Vec<_> = fields.iter().map(read).collect();
     let local = |(k, &slot): (usize, &usize)| {
         let body = slots.get(slot).copied().flatten()?;
-        local(
-            at,
-            read.get(k).or(read.first())?.as_ref()?,
-            body,
-            bodies,
-            findings,
-        )
+        local(at, read.get(k).or(read.first())?.as_ref()?, body, bodies)
     };
     of.iter().enumerate().map(local).collect()
 }
@@ -136,74 +143,24 @@ fn global<S: SceneSpace>(
 /// A point that `at` gives, in the frame of a body relative to its centre of mass.
 fn local<S: SceneSpace>(
     at: &Field,
-    point: &Point<S>,
+    point: &PointText<S>,
     body: BodyRef,
     bodies: &Bodies<S>,
-    findings: &mut Findings,
 ) -> Option<S::Vector<f64>> {
     let local = match *point {
-        Point::Of(marker) if marker.body == body => bodies.place_of(marker),
-        Point::Of(marker) => bodies.to_local(body, bodies.global(marker)),
-        Point::At(point) => bodies.to_local(body, point),
+        PointText::Of(marker) if marker.body == body => bodies.place_of(marker),
+        PointText::Of(marker) => bodies.to_local(body, bodies.global(marker)),
+        PointText::At(point) => bodies.to_local(body, point),
     };
     if !S::point(local).iter().all(|x| is_usable(*x)) {
-        findings.error(Mistake::NotFinite,
-            at.span(),
-            format!(
-                "{}: `at` and the position of `{}` are too far apart: their difference is not a finite number up to {LARGEST:e}",
-                at.subject,
-                bodies.names.name(body)
-            ),
-            "too far away",
-        );
+        at.error(Mistake::NotFinite, format!(": `at` and the position of `{}` are too far apart: their difference is not a finite number up to {LARGEST:e}", bodies.names.name(body)), "too far away");
         return None;
     }
     Some(local)
 }
 
-/// Reads one point of a body, `at` or in its frame by `point`. Returns `None` if it is missing or
-/// wrong, which is reported, or if the body is not known.
-pub(crate) fn one<S: SceneSpace>(
-    table: &mut Table,
-    body: Option<BodyRef>,
-    bodies: &Bodies<S>,
-    findings: &mut Findings,
-) -> Option<S::Vector<f64>> {
-    match (table.optional(AT), table.optional(POINT)) {
-        (Some(at), Some(own)) => {
-            findings.collision(
-                Mistake::Exclusive,
-                own.span(),
-                format!("{} takes `{AT}` or `{POINT}`, not both", table.subject),
-                "and here in the frame of the body",
-                at.span(),
-                "the place is given here",
-            );
-            None
-        }
-        (Some(at), None) => {
-            let read = point(&at, S::GLOBAL_POINT, bodies, findings)?;
-            local(&at, &read, body?, bodies, findings)
-        }
-        (None, Some(own)) => of_body(&own, 1, body, bodies, findings).pop()?,
-        (None, None) => {
-            findings.error(
-                Mistake::Missing,
-                table.header.clone(),
-                format!(
-                    "{} needs a place: `{AT} = {}` in global coordinates, or `{POINT}` in the frame of the body",
-                    table.subject,
-                    S::VECTOR
-                ),
-                "the place is missing here",
-            );
-            None
-        }
-    }
-}
-
 /// A point as it is written.
-enum Point<'b, S: SceneSpace> {
+enum PointText<'b, S: SceneSpace> {
     At(S::Vector<f64>),
     Of(&'b Marker),
 }
@@ -213,13 +170,12 @@ fn point<'b, S: SceneSpace>(
     field: &Field,
     expected: &str,
     bodies: &'b Bodies<S>,
-    findings: &mut Findings,
-) -> Option<Point<'b, S>> {
+) -> Option<PointText<'b, S>> {
     if bodies.markers.may_be(field) {
-        return bodies.markers.find(field, findings).map(Point::Of);
+        return bodies.markers.find(field).map(PointText::Of);
     }
-    let point = field.vector::<S>(expected, Dimension::LENGTH, findings);
-    point.map(Point::At)
+    let point = field.vector::<S>(expected, Dimension::LENGTH);
+    point.map(PointText::At)
 }
 
 /// The fields of `n` points. Returns `None` and reports if there are not as many.
@@ -228,14 +184,13 @@ fn several<'t>(
     n: usize,
     expected: &str,
     markers: &Markers,
-    findings: &mut Findings,
 ) -> Option<Vec<Field<'t>>> {
-    let items = field.items(expected, findings)?;
+    let items = field.items(expected)?;
     let is_point = |item: &Field| item.value.get_ref().is_array() || markers.may_be(item);
     if items.len() == n && items.iter().all(is_point) {
         return Some(items);
     }
-    field.miscount(expected, items.len(), n, findings);
+    field.miscount(expected, items.len(), n);
     None
 }
 
@@ -245,7 +200,6 @@ fn of_body<S: SceneSpace>(
     n: usize,
     body: Option<BodyRef>,
     bodies: &Bodies<S>,
-    findings: &mut Findings,
 ) -> Vec<Option<S::Vector<f64>>> {
     let fields = match n {
         1 => Some(vec![field.clone()]),
@@ -254,20 +208,19 @@ fn of_body<S: SceneSpace>(
             n,
             &format!("{n} points [{}, …]", S::VECTOR),
             &bodies.markers,
-            findings,
         ),
     };
     let Some(fields) = fields else {
         return vec![None; n];
     };
     let mut local = |field: &Field| {
-        let read = point(field, S::POINT, bodies, findings)?;
+        let read = point(field, S::POINT, bodies)?;
         let body = body?;
         match read {
-            Point::At(point) => Some(bodies.about_centre(body, point)),
-            Point::Of(marker) if marker.body == body => Some(bodies.place_of(marker)),
-            Point::Of(marker) => {
-                bodies.foreign(marker, body, field, findings);
+            PointText::At(point) => Some(bodies.about_centre(body, point)),
+            PointText::Of(marker) if marker.body == body => Some(bodies.place_of(marker)),
+            PointText::Of(marker) => {
+                bodies.foreign(marker, body, field);
                 None
             }
         }
@@ -281,10 +234,9 @@ fn by_body<S: SceneSpace>(
     of: &[usize],
     slots: &[Option<BodyRef>],
     bodies: &Bodies<S>,
-    findings: &mut Findings,
 ) -> Vec<Option<S::Vector<f64>>> {
     let mut points = vec![None; of.len()];
-    let Some(table) = field.table(S::BY_BODY, findings) else {
+    let Some(table) = field.table(S::BY_BODY) else {
         return points;
     };
     // If a name is missing, it cannot be decided which keys are right.
@@ -313,7 +265,7 @@ fn by_body<S: SceneSpace>(
             .filter(|&k| bodies.names.name(owners[k]) == value.key)
             .collect();
         if mine.is_empty() {
-            findings.error_with_help(
+            field.findings.error_with_help(
                 Mistake::UnknownKey,
                 key.clone(),
                 format!(
@@ -329,16 +281,14 @@ fn by_body<S: SceneSpace>(
             continue;
         }
         let body = mine.first().map(|k| owners[*k]);
-        let read = of_body(value, mine.len(), body, bodies, findings);
+        let read = of_body(value, mine.len(), body, bodies);
         for (k, point) in mine.iter().zip(read) {
             points[*k] = point;
         }
     }
     for name in missing {
-        findings.error(
-            Mistake::Missing,
-            table.header.clone(),
-            format!("{} needs the point of `{name}`", table.subject),
+        table.missing(
+            format!(" needs the point of `{name}`"),
             format!("`{name} = {}` is missing here", S::VECTOR),
         );
     }

@@ -16,7 +16,6 @@ use model::{BodyRef, Marker};
 use crate::dimension::Dimension;
 use crate::expression::units;
 use crate::field::Field;
-use crate::findings::Findings;
 
 pub(crate) use mechanism::check;
 
@@ -30,7 +29,7 @@ const NEAR_EARTH: f64 = 0.03;
 const LARGEST_GRAVITY: f64 = 50.0;
 
 /// Warns of a gravity that no planet has, and of one that is that of the Earth in another unit.
-pub(crate) fn gravity(field: &Field, gravity: &[f64], findings: &mut Findings) {
+pub(crate) fn gravity(field: &Field, gravity: &[f64]) {
     let size = norm(gravity);
     let is_earth = |x: f64| (x / EARTH - 1.0).abs() <= NEAR_EARTH;
     let base = field.language.length_unit();
@@ -57,7 +56,7 @@ pub(crate) fn gravity(field: &Field, gravity: &[f64], findings: &mut Findings) {
         }
         None => format!("write it in {}/s²", base.name),
     };
-    findings.warning(
+    field.findings.warning(
         const { Code::new(193) },
         field.span(),
         format!(
@@ -74,11 +73,11 @@ pub(crate) fn gravity(field: &Field, gravity: &[f64], findings: &mut Findings) {
 
 /// Warns of rows that are farther apart than the run is long. A run of no time is a start with its
 /// reactions.
-pub(crate) fn output_step(step: &Field, [each, end]: [f64; 2], findings: &mut Findings) {
+pub(crate) fn output_step(step: &Field, [each, end]: [f64; 2]) {
     if !(each > end && end > 0.0) {
         return;
     }
-    findings.warning(
+    step.findings.warning(
         const { Code::new(197) },
         step.span(),
         format!(
@@ -91,18 +90,13 @@ pub(crate) fn output_step(step: &Field, [each, end]: [f64; 2], findings: &mut Fi
 }
 
 /// Warns of a measure between two places of one body, which never changes.
-pub(crate) fn measure(
-    field: &Field,
-    between: [Option<usize>; 2],
-    markers: &[Marker],
-    findings: &mut Findings,
-) {
+pub(crate) fn measure(field: &Field, between: [Option<usize>; 2], markers: &[Marker]) {
     let body = |k: Option<usize>| k.map_or(BodyRef::Ground, |k| markers[k].body);
     let [first, second] = between;
     if first == second || body(first) != body(second) {
         return;
     }
-    findings.warning(
+    field.findings.warning(
         const { Code::new(198) },
         field.span(),
         format!(

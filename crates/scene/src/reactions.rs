@@ -9,7 +9,6 @@ use model::SpaceKind;
 use crate::active;
 use crate::combination::{self, Combination, Reactions};
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::key::{Key, Takes};
 use crate::mistake::Mistake;
 use crate::table::Table;
@@ -100,55 +99,37 @@ pub(crate) fn components(space: SpaceKind, spec: &ConstraintSpec) -> Vec<&'stati
 }
 
 /// Reads one group.
-pub(crate) fn group(
-    mut table: Table,
-    name: &str,
-    names: &Reactions,
-    findings: &mut Findings,
-) -> Option<GroupRequest> {
+pub(crate) fn group(mut table: Table, name: &str, names: &Reactions) -> Option<GroupRequest> {
     let of = table.optional(&MEMBERS);
     let combine = table.optional(&COMBINE);
     let content = match (of, combine) {
-        (Some(field), None) => match members(&field, names, findings) {
+        (Some(field), None) => match members(&field, names) {
             Some(none) if none.is_empty() => {
-                findings.error(
+                field.error(
                     Mistake::EmptyList,
-                    field.span(),
-                    format!("{}: `members` is empty", table.subject),
+                    ": `members` is empty",
                     "needs at least one joint or drive",
                 );
                 None
             }
             members => members.map(GroupContent::Members),
         },
-        (None, Some(combine)) => {
-            self::combine(&combine, names, findings).map(GroupContent::Combination)
-        }
+        (None, Some(combine)) => self::combine(&combine, names).map(GroupContent::Combination),
         (Some(members), Some(combine)) => {
-            findings.collision(
-                Mistake::Exclusive,
-                combine.span(),
-                format!("{} takes `members` or `combine`, not both", table.subject),
-                "and a combination here",
-                members.span(),
-                "members are given here",
-            );
+            let first = (members.span(), "members are given here");
+            let second = (combine.span(), "and a combination here");
+            table.exclusive("`members` or `combine`", [first, second]);
             None
         }
         (None, None) => {
-            findings.error(
-                Mistake::Missing,
-                table.header.clone(),
-                format!(
-                    "{} needs `members = [\"A\", …]` or `combine = \"A.Fx + …\"`",
-                    table.subject
-                ),
+            table.missing(
+                " needs `members = [\"A\", …]` or `combine = \"A.Fx + …\"`",
                 "its content is missing here",
             );
             None
         }
     };
-    table.close(findings);
+    table.close();
     content.map(|content| GroupRequest {
         name: name.to_owned(),
         content,
@@ -156,32 +137,25 @@ pub(crate) fn group(
 }
 
 /// Reads the section `[output]`.
-pub(crate) fn output(mut table: Table, names: &Reactions, findings: &mut Findings) -> Output {
+pub(crate) fn output(mut table: Table, names: &Reactions) -> Output {
     let defaults = Output::default();
-    let trajectory = table
-        .optional(&TRAJECTORY)
-        .and_then(|field| field.boolean(findings));
-    let report = table
-        .optional(&REPORT)
-        .and_then(|field| field.boolean(findings));
-    let reactions =
-        table
-            .optional(&REACTIONS)
-            .and_then(|field| match field.value.get_ref().as_bool() {
-                Some(true) => Some(WantedReactions::All),
-                Some(false) => Some(WantedReactions::None),
-                None => members(&field, names, findings).map(WantedReactions::Of),
-            });
-    table.close(findings);
-    Output {
-        trajectory: trajectory.unwrap_or(defaults.trajectory),
+    let reactions = table.optional(&REACTIONS);
+    let reactions = reactions.and_then(|field| match field.value.get_ref().as_bool() {
+        Some(true) => Some(WantedReactions::All),
+        Some(false) => Some(WantedReactions::None),
+        None => members(&field, names).map(WantedReactions::Of),
+    });
+    let output = Output {
+        trajectory: table.flag(&TRAJECTORY).unwrap_or(defaults.trajectory),
         reactions: reactions.unwrap_or_default(),
-        report: report.unwrap_or(defaults.report),
-    }
+        report: table.flag(&REPORT).unwrap_or(defaults.report),
+    };
+    table.close();
+    output
 }
 
 /// A list of joints and drives, each once.
-fn members(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<Vec<String>> {
+fn members(field: &Field, names: &Reactions) -> Option<Vec<String>> {
     let expected = if field.key == REACTIONS.name {
         REACTIONS.expected
     } else {
@@ -190,36 +164,31 @@ fn members(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<
     let mut members: Vec<String> = Vec::new();
     let mut first: HashMap<&str, Range<usize>> = HashMap::new();
     let mut right = true;
-    for item in field.items(expected, findings)? {
-        let Some(name) = item.text("the name of a joint or drive", findings) else {
+    for item in field.items(expected)? {
+        let Some(name) = item.text("the name of a joint or drive") else {
             right = false;
             continue;
         };
         if names.find(name).is_none() && names.is_inactive(name) {
             right = false;
-            findings.error_with_help(
+            item.error_with_help(
                 Mistake::Inactive,
-                item.span(),
-                format!("{} refers to `{name}`, which is not active", item.subject),
+                format!(" refers to `{name}`, which is not active"),
                 "not active",
                 active::HELP.to_owned(),
             );
         } else if names.find(name).is_none() {
             right = false;
-            let near = findings.suggest(name, names.names());
-            findings.error_with_help(
+            let near = field.findings.suggest(name, names.names());
+            item.error_with_help(
                 Mistake::UnknownJoint,
-                item.span(),
-                format!(
-                    "{} refers to the unknown joint or drive `{name}`",
-                    item.subject
-                ),
+                format!(" refers to the unknown joint or drive `{name}`"),
                 "no such joint or drive",
                 near.map(|near| format!("did you mean `{near}`?")),
             );
         } else if let Some(first) = first.get(name) {
             right = false;
-            findings.collision(
+            field.findings.collision(
                 Mistake::Twice,
                 item.span(),
                 format!("{}: `{}` names `{name}` twice", item.subject, item.key),
@@ -235,12 +204,12 @@ fn members(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<
     right.then_some(members)
 }
 
-fn combine(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<Combination> {
-    let text = field.text(COMBINE.expected, findings)?;
+fn combine(field: &Field, names: &Reactions) -> Option<Combination> {
+    let text = field.text(COMBINE.expected)?;
     combination::parse(text, names)
         .map_err(|error| {
-            let span = field.part(error.span, findings);
-            findings.error(
+            let span = field.part(error.span);
+            field.findings.error(
                 Mistake::from(&error.problem),
                 span,
                 format!("{}: `combine`: {}", field.subject, error.problem),

@@ -13,19 +13,20 @@ use serde_json::{Map, Value, json};
 
 use crate::active::ACTIVE;
 use crate::body::SceneBody;
+use crate::drive::{DRIVE_KEYS, MEASURE};
 use crate::element::COUPLING;
 use crate::function::{KINDS, STEP_KEYS};
-use crate::joint::{DRIVE_KEYS, MEASURE};
+
+use crate::heading::SCENE_KEYS;
 use crate::key::{Interval, Key, TYPE};
 use crate::language::read::{self as language, UNIT_KEYS};
 use crate::nearest::list;
 use crate::reactions::{GROUP_KEYS, OUTPUT_KEYS};
-use crate::read::SCENE_KEYS;
 use crate::section::{self, NAME, Section};
 use crate::silence;
 use crate::space::SceneSpace;
 use crate::{coupling, marker, measure, simulate, spring, start, tolerance};
-use element::{Kind, elements};
+use element::{ElementKind, elements};
 use value::{described, reference};
 
 /// The JSON schema (draft 2020-12) of scene files that name joints and forces of this registry.
@@ -103,9 +104,9 @@ fn in_space<S: SceneBody>(registry: &Registry, definitions: &mut Map<String, Val
         named("Body", S::BODY_KEYS),
         named("Marker", marker::keys(S::KIND)),
         named("Measure", &measure::keys(S::KIND)),
-        with_coupling(elements(registry, Kind::Joint)),
+        joints(registry),
         drive(registry),
-        with_springs::<S>(elements(registry, Kind::Force)),
+        forces(registry),
     ];
     let mut properties = Map::new();
     for (Section { name, doc }, definition) in OF_SPACE.into_iter().zip(tables) {
@@ -125,36 +126,39 @@ fn in_space<S: SceneBody>(registry: &Registry, definitions: &mut Map<String, Val
     properties.into()
 }
 
-/// The joints, with the table of couplings, which have no definition.
-fn with_coupling(mut joints: Value) -> Value {
-    let keys = [&coupling::KEYS[..], &[tolerance::OF_JOINT, ACTIVE]].concat();
-    let mut own = named("Joint `coupling`", &keys);
-    own["properties"][TYPE] = json!({
-        "const": COUPLING,
-        "description": "A measure of one joint follows a measure of another",
-    });
+/// The elements of a section, with those of a type that has keys in place of a definition.
+fn with_type(
+    mut elements: Value,
+    title: &str,
+    scene_type: &str,
+    (doc, keys): (&str, &[Key]),
+) -> Value {
+    let mut own = named(&format!("{title} `{scene_type}`"), keys);
+    own["properties"][TYPE] = json!({ "const": scene_type, "description": doc });
     require(&mut own, TYPE);
-    if let Some(tables) = joints["oneOf"].as_array_mut() {
+    if let Some(tables) = elements["oneOf"].as_array_mut() {
         tables.push(own);
     }
-    joints
+    elements
 }
 
-/// The forces, in space with the table of springs on angles, which have no definition.
-fn with_springs<S: SceneSpace>(mut forces: Value) -> Value {
-    if S::KIND == SpaceKind::Space3 {
-        let keys = [&spring::KEYS[..], &[ACTIVE]].concat();
-        let mut own = named("Force `torsion-spring-damper`", &keys);
-        own["properties"][TYPE] = json!({
-            "const": spring::SPRING,
-            "description": "A spring and a damper on the angle of a joint",
-        });
-        require(&mut own, TYPE);
-        if let Some(tables) = forces["oneOf"].as_array_mut() {
-            tables.push(own);
-        }
+/// The joints, with couplings.
+fn joints<S: SceneSpace>(registry: &Definitions<S>) -> Value {
+    let keys = [&coupling::KEYS[..], &[tolerance::OF_JOINT, ACTIVE]].concat();
+    let doc = "A measure of one joint follows a measure of another";
+    let joints = elements(registry, ElementKind::Joint);
+    with_type(joints, "Joint", COUPLING, (doc, &keys))
+}
+
+/// The forces, in space with springs on angles.
+fn forces<S: SceneSpace>(registry: &Definitions<S>) -> Value {
+    let forces = elements(registry, ElementKind::Force);
+    if S::KIND != SpaceKind::Space3 {
+        return forces;
     }
-    forces
+    let keys = [&spring::KEYS[..], &[ACTIVE]].concat();
+    let doc = "A spring and a damper on the angle of a joint";
+    with_type(forces, "Force", spring::SPRING, (doc, &keys))
 }
 
 /// A section with this definition.

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::key::{Key, Takes};
 use crate::mistake::Mistake;
 use crate::source_map::Entry;
@@ -72,10 +71,9 @@ pub(crate) fn section<'t>(
     root: &mut Table<'t>,
     Section { name, .. }: &Section,
     sections: &mut BTreeMap<String, Entry>,
-    findings: &mut Findings,
 ) -> Option<Table<'t>> {
     let field = root.optional(*name)?;
-    let mut table = field.table(&format!("one table `[{name}]`"), findings)?;
+    let mut table = field.table(&format!("one table `[{name}]`"))?;
     table.subject = format!("`[{name}]`").into();
     sections.insert((*name).to_owned(), Entry::of(name, &table));
     Some(table)
@@ -85,49 +83,44 @@ pub(crate) fn section<'t>(
 pub(crate) fn tables<'t>(
     root: &mut Table<'t>,
     Section { name: kind, .. }: &Section,
-    findings: &mut Findings,
 ) -> Vec<(Table<'t>, String)> {
     let expected = format!("a list of tables `[[{kind}]]`");
     let Some(field) = root.optional(*kind) else {
         return Vec::new();
     };
     let items = if field.value.get_ref().is_table() {
-        field.mismatch(&expected, findings);
+        field.mismatch(&expected);
         vec![field]
     } else {
-        field.items(&expected, findings).unwrap_or_default()
+        field.items(&expected).unwrap_or_default()
     };
     let numbered = items.iter().enumerate();
     numbered
-        .filter_map(|(k, item)| named(item, kind, k + 1, findings))
+        .filter_map(|(k, item)| named(item, kind, k + 1))
         .collect()
 }
 
 /// A table with its name, or with its number if it has no name.
-fn named<'t>(
-    item: &Field<'t>,
-    kind: &str,
-    number: usize,
-    findings: &mut Findings,
-) -> Option<(Table<'t>, String)> {
+fn named<'t>(item: &Field<'t>, kind: &str, number: usize) -> Option<(Table<'t>, String)> {
     let Some(entries) = item.value.get_ref().as_table() else {
-        item.mismatch(&format!("a list of tables `[[{kind}]]`"), findings);
+        item.mismatch(&format!("a list of tables `[[{kind}]]`"));
         return None;
     };
-    let mut table = Table::new("", item.span(), entries, item.language);
+    let mut table = Table::new("", item.span(), entries, (item.language, item.findings));
     if let Some(name) = table.peek("name").filter(|name| unfit(name).is_none()) {
         table.optional(&NAME);
         table.subject = format!("{kind} `{name}`").into();
         return Some((table, name.to_owned()));
     }
     table.subject = format!("{kind} number {number}").into();
-    let field = table.required(&NAME, findings);
+    let field = table.required(&NAME);
     if let Some(field) = field
-        && let Some(name) = field.text(NAME.expected, findings)
+        && let Some(name) = field.text(NAME.expected)
         && let Some((reason, label)) = unfit(name)
     {
         let message = format!("{}: `name` {reason}", table.subject);
-        findings.error(Mistake::UnfitName, field.span(), message, label);
+        item.findings
+            .error(Mistake::UnfitName, field.span(), message, label);
     }
     let name = table.subject.to_string();
     Some((table, name))

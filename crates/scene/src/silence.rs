@@ -3,7 +3,6 @@
 use model::codes::Code;
 use serde_json::json;
 
-use crate::findings::Findings;
 use crate::key::{Key, Takes};
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
@@ -39,20 +38,18 @@ const SILENCE: Key = Key::optional(
 pub(crate) const SCENE_KEYS: [Key; 1] = [SILENCE];
 
 /// Silences what `[scene]` says.
-pub(crate) fn read(table: &mut Table, findings: &mut Findings) {
-    let field = table.optional(&SILENCE);
-    let items = field.and_then(|field| field.items(SILENCE.expected, findings));
-    for item in items.unwrap_or_default() {
-        let Some(text) = item.text(SILENCE.expected, findings) else {
+pub(crate) fn read(table: &mut Table) {
+    for item in table.items(&SILENCE) {
+        let Some(text) = item.text(SILENCE.expected) else {
             continue;
         };
         if let Some(code) = WARNINGS.iter().find(|code| code.to_string() == text) {
-            findings.silence(*code);
+            table.findings.silence(*code);
             continue;
         }
         let codes = warnings();
         let names = || codes.iter().map(String::as_str);
-        findings.error_with_help(
+        table.findings.error_with_help(
             const { Code::new(180) },
             item.span(),
             format!("`[scene]`: `silence` names `{text}`, which is no warning of a scene"),

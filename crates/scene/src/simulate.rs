@@ -115,38 +115,32 @@ pub(crate) struct Simulate {
 }
 
 /// Reads the section. `None` if the end of the run could not be read.
-pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate> {
-    let end = table.needed(T_END.name, "the last time in s", findings);
-    let t_end = end
-        .as_ref()
-        .and_then(|field| bounded(field, &T_END, findings));
+pub(crate) fn read(mut table: Table) -> Option<Simulate> {
+    let end = table.needed(T_END.name, "the last time in s");
+    let t_end = end.as_ref().and_then(|field| bounded(field, &T_END));
     let mut options = MotionOptions::to(t_end.unwrap_or(1.0));
     let step = table.optional(&OUTPUT_STEP);
-    let output_step = step
-        .as_ref()
-        .and_then(|field| bounded(field, &OUTPUT_STEP, findings));
+    let output_step = step.as_ref().and_then(|field| bounded(field, &OUTPUT_STEP));
     options.output_step = output_step.unwrap_or(options.output_step);
     if let (Some(_), Some(end), Some(step)) = (t_end, &end, &step) {
-        check_length(&options, step, end, findings);
-        plausible::output_step(step, [options.output_step, options.t_end], findings);
+        check_length(&options, step, end);
+        plausible::output_step(step, [options.output_step, options.t_end]);
     }
     let mut number = |key: &Key, value: &mut f64| {
-        let read = table
-            .optional(key)
-            .and_then(|field| bounded(&field, key, findings));
+        let read = table.optional(key).and_then(|field| bounded(&field, key));
         *value = read.unwrap_or(*value);
     };
     number(&RTOL, &mut options.rtol);
     number(&ATOL, &mut options.atol);
     number(&MAX_STEP, &mut options.max_step);
-    if let Some(steps) = max_steps(&mut table, findings) {
+    if let Some(steps) = max_steps(&mut table) {
         options.max_steps = steps;
     }
-    options.method = choose(&mut table, &METHODS, findings).unwrap_or_default();
-    refuse_moved(&mut table, findings);
-    options.stabilisation = choose(&mut table, &STABILISATIONS, findings).unwrap_or_default();
-    let drop = table.optional(&DROP).map(|field| rows(&field, findings));
-    table.close(findings);
+    options.method = choose(&mut table, &METHODS).unwrap_or_default();
+    refuse_moved(&mut table);
+    options.stabilisation = choose(&mut table, &STABILISATIONS).unwrap_or_default();
+    let drop = table.optional(&DROP).map(|field| rows(&field));
+    table.close();
     if let Some(drop) = &drop {
         options.rows = RowChoice::Drop(drop.iter().map(|(row, _)| *row).collect());
     }
@@ -158,7 +152,7 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate
 }
 
 /// Reports an output with too many rows for a disk.
-fn check_length(options: &MotionOptions, step: &Field, end: &Field, findings: &mut Findings) {
+fn check_length(options: &MotionOptions, step: &Field, end: &Field) {
     let MotionOptions {
         t_end, output_step, ..
     } = *options;
@@ -171,7 +165,7 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field, findings: &m
         "{}: output_step is {output_step:?} s: up to t = {t_end} s this would write {rows:.3e} rows, more than {most:e}",
         step.subject
     );
-    let source = findings.source;
+    let source = step.findings.source;
     let label = "too small for this run";
     let too_small = Diagnostic::error(Mistake::TooManyRows, source, step.span(), message, label)
         .and(source.label(end.span(), "the run ends here"))
@@ -180,12 +174,12 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field, findings: &m
             t_end / USEFUL_ROWS,
             MotionOptions::OUTPUT_STEPS + 1.0
         ));
-    findings.report(too_small);
+    step.findings.report(too_small);
 }
 
 /// A number within its bounds; errors have the text of `dynamics`.
-fn bounded(field: &Field, key: &Key, findings: &mut Findings) -> Option<f64> {
-    let value = field.number(key.unit, findings)?;
+fn bounded(field: &Field, key: &Key) -> Option<f64> {
+    let value = field.number(key.unit)?;
     if key.allows(value) {
         return Some(value);
     }
@@ -195,23 +189,22 @@ fn bounded(field: &Field, key: &Key, findings: &mut Findings) -> Option<f64> {
         value,
         expected,
     };
-    findings.error(
+    field.error(
         Mistake::OutOfRange,
-        field.span(),
-        format!("{}: {error}", field.subject),
+        format!(": {error}"),
         format!("expected {expected}"),
     );
     None
 }
 
-fn max_steps(table: &mut Table, findings: &mut Findings) -> Option<u64> {
+fn max_steps(table: &mut Table) -> Option<u64> {
     let field = table.optional(&MAX_STEPS)?;
-    let value = field.integer(MAX_STEPS.expected, findings)?;
+    let value = field.integer(MAX_STEPS.expected)?;
     let steps = u64::try_from(value).ok().filter(|steps| *steps > 0);
     if steps.is_none() {
         let expected = MAX_STEPS.expected;
         let message = format!("{}: max_steps is {value}, need {expected}", field.subject);
-        findings.error(
+        table.findings.error(
             Mistake::OutOfRange,
             field.span(),
             message,
@@ -221,28 +214,22 @@ fn max_steps(table: &mut Table, findings: &mut Findings) -> Option<u64> {
     steps
 }
 
-fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Findings) -> Option<T> {
+fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>) -> Option<T> {
     let field = table.optional(&choice.key)?;
     let names = || choice.available.iter().map(|value| (choice.name)(*value));
-    let value = field.text(&format!("one of {}", list(names())), findings)?;
+    let value = field.text(&format!("one of {}", list(names())))?;
     let mut available = choice.available.iter().copied();
     if let Some(found) = available.find(|found| (choice.name)(*found) == value) {
         return Some(found);
     }
     if let Some(words) = moved(&field.key, value) {
-        findings.error(
-            Mistake::NotOfARun,
-            field.span(),
-            format!("{}: {words}", field.subject),
-            "not of a run",
-        );
+        field.error(Mistake::NotOfARun, format!(": {words}"), "not of a run");
         return None;
     }
     let help = did_you_mean(value, names());
-    findings.error_with_help(
+    field.error_with_help(
         Mistake::UnknownChoice,
-        field.span(),
-        format!("{}: `{}` `{value}` is unknown", field.subject, field.key),
+        format!(": `{}` `{value}` is unknown", field.key),
         "no such choice",
         help.or_else(|| Some(format!("available are {}", list(names())))),
     );
@@ -251,7 +238,7 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
 
 /// Reports keys of former options, with their replacement: a run has one formulation, and
 /// Baumgarte's method has no gains.
-fn refuse_moved(table: &mut Table, findings: &mut Findings) {
+fn refuse_moved(table: &mut Table) {
     for (key, of) in [
         ("formulation", "formulation"),
         ("baumgarte", "stabilisation"),
@@ -265,39 +252,30 @@ fn refuse_moved(table: &mut Table, findings: &mut Findings) {
         let value = table.peek(key).unwrap_or(key);
         let words = moved(of, value);
         let words = words.unwrap_or_else(|| format!("a run has no key `{key}`"));
-        findings.error(
-            Mistake::NotOfARun,
-            field.span(),
-            format!("{}: {words}", field.subject),
-            "not of a run",
-        );
+        field.error(Mistake::NotOfARun, format!(": {words}"), "not of a run");
     }
 }
 
 /// Rows to drop, counted from 1 in the file and from 0 in the result. Their existence is checked
 /// when the mechanism is built.
-fn rows(field: &Field, findings: &mut Findings) -> Vec<(usize, Range<usize>)> {
+fn rows(field: &Field) -> Vec<(usize, Range<usize>)> {
     const EXPECTED: &str = DROP.expected;
     let mut rows: Vec<(usize, Range<usize>)> = Vec::new();
     let mut named = HashMap::new();
-    for item in field.items(EXPECTED, findings).unwrap_or_default() {
-        let Some(number) = item.integer(EXPECTED, findings) else {
+    for item in field.items(EXPECTED).unwrap_or_default() {
+        let Some(number) = item.integer(EXPECTED) else {
             continue;
         };
         let Some(row) = usize::try_from(number).ok().and_then(|n| n.checked_sub(1)) else {
-            findings.error(
+            item.error(
                 Mistake::UnknownRow,
-                item.span(),
-                format!(
-                    "{}: `drop` names row {number}; rows are counted from 1",
-                    field.subject
-                ),
+                format!(": `drop` names row {number}; rows are counted from 1"),
                 "no such row",
             );
             continue;
         };
         let twice = format!("{}: `drop` names row {number} twice", field.subject);
-        if findings.is_first(&mut named, row, item.span(), twice) {
+        if field.findings.is_first(&mut named, row, item.span(), twice) {
             rows.push((row, item.span()));
         }
     }
@@ -306,7 +284,7 @@ fn rows(field: &Field, findings: &mut Findings) -> Vec<(usize, Range<usize>)> {
 
 impl Simulate {
     /// Reports dropped rows that the mechanism does not have.
-    pub(crate) fn check_rows(&self, n_rows: usize, findings: &mut Findings) {
+    pub(crate) fn check_rows(&self, n_rows: usize, findings: &Findings) {
         for (row, span) in self.drop.iter().filter(|(row, _)| *row >= n_rows) {
             findings.error(
                 Mistake::UnknownRow,
@@ -321,7 +299,7 @@ impl Simulate {
     }
 
     /// Reports tables of functions that end before the run does.
-    pub(crate) fn check_domains(&self, domains: &[Domain], findings: &mut Findings) {
+    pub(crate) fn check_domains(&self, domains: &[Domain], findings: &Findings) {
         let t_end = self.options.t_end;
         for domain in domains {
             let Domain { first, last, .. } = *domain;

@@ -37,14 +37,14 @@ pub(crate) fn of_type(here: &str, registry: &Registry, name: &str) -> Option<&'s
 }
 
 /// What the start may hold of a body, by its name.
-pub(crate) struct Kept {
+pub(crate) struct BodyCoordinate {
     pub(crate) name: &'static str,
     /// Freedoms of the body.
     pub(crate) dofs: Range<usize>,
     pub(crate) level: KeepLevel,
 }
 
-impl Kept {
+impl BodyCoordinate {
     pub(crate) const fn new(name: &'static str, dofs: Range<usize>, level: KeepLevel) -> Self {
         Self { name, dofs, level }
     }
@@ -65,7 +65,7 @@ pub(crate) trait SceneSpace: BodySpace {
     /// The acceleration of free fall.
     const GRAVITY: Key;
     /// What the start may hold of a body.
-    const KEPT: &'static [Kept];
+    const COORDINATES: &'static [BodyCoordinate];
 
     /// Whether directions may be written in the axes of the ground (`frame = "global"`), and those
     /// of a second body are written in the axes of the first one.

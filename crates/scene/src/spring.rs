@@ -3,17 +3,12 @@
 
 use joints::spec::Unit;
 use model::law::{Join, Law, Operation};
-use model::{Force, Function, SpaceKind};
+use model::{Force, SpaceKind};
 
-use crate::active;
 use crate::dimension::Dimension;
-use crate::findings::Findings;
-use crate::force::Forces;
-use crate::joint::{JOINT, JointNames, dimension, must_be_active, of_name};
+use crate::joint_measure::Purpose;
+use crate::joint_name::References;
 use crate::key::{Interval, Key, TYPE, Takes};
-use crate::mistake::Mistake;
-use crate::nearest::list;
-use crate::source_map::Entry;
 use crate::space::SceneSpace;
 use crate::table::Table;
 
@@ -40,112 +35,39 @@ pub(crate) fn is_meant<S: SceneSpace>(table: &Table) -> bool {
     S::KIND == SpaceKind::Space3 && table.peek(TYPE) == Some(SPRING)
 }
 
-impl<S: SceneSpace> Forces<S> {
-    /// Reads a spring on the angle of a joint.
-    pub(crate) fn read_spring(
-        &mut self,
-        mut table: Table,
-        name: &str,
-        joints: &JointNames<S>,
-        findings: &mut Findings,
-    ) {
-        let _ = table.optional(TYPE);
-        let field = table.required(&OF, findings);
-        let joint = field.as_ref().and_then(|field| {
-            let name = field.text(JOINT.expected, findings)?;
-            of_name(name, field, joints, findings)
-        });
-        let measure = table.optional(&MEASURE);
-        let number = |key: &Key, unit: Unit, table: &mut Table, findings: &mut Findings| {
-            let field = table.required(key, findings)?;
-            field.number(unit.into(), findings)
-        };
-        let stiffness = number(&STIFFNESS, Unit::TorsionStiffness, &mut table, findings);
-        let damping = number(&DAMPING, Unit::TorsionDamping, &mut table, findings);
-        let free = table
-            .optional(&FREE_ANGLE)
-            .map(|field| field.number(Dimension::ANGLE, findings));
-        let is_active = active::read(&mut table, findings);
-        if let (Some(field), true) = (&field, is_active) {
-            must_be_active(&table.subject, "springs", field.span(), joint, findings);
-        }
-        let entry = Entry::switched(name, &table, is_active);
-        let (subject, at) = (table.subject.clone(), table.span_of(OF.name));
-        table.close(findings);
-        let Some(joint) = joint else { return };
-        let angles: Vec<&'static str> = match joint.definition {
-            Some(definition) => {
-                let measures = definition.spec.measures.iter().map(|m| m.name);
-                measures
-                    .filter(|m| dimension(joint, m) == Some(Dimension::ANGLE))
-                    .collect()
-            }
-            None if joint.is_coupling => Vec::new(),
-            None => return,
-        };
-        let asked = match &measure {
-            Some(field) => match field.text(MEASURE.expected, findings) {
-                Some(text) => Some((text, field.span())),
-                None => return,
-            },
-            None => angles.first().map(|first| (*first, at.clone())),
-        };
-        let found = asked
-            .as_ref()
-            .and_then(|(asked, _)| angles.iter().find(|angle| **angle == *asked));
-        let Some(&angle) = found else {
-            let help = if angles.is_empty() {
-                "springs act on the angle of a revolute, cylindrical or screw joint".to_owned()
-            } else {
-                format!("its angles are {}", list(angles.iter().copied()))
-            };
-            findings.error_with_help(
-                Mistake::UnknownMeasure,
-                asked.map_or(at, |(_, at)| at),
-                format!("{subject}: joint `{}` has no such angle", joint.name),
-                "no angle here",
-                Some(help),
-            );
-            return;
-        };
-        let (Some(stiffness), Some(damping)) = (stiffness, damping) else {
-            return;
-        };
-        let law = match free {
-            Some(None) => return,
-            Some(Some(free)) => law(stiffness, damping, free),
-            None => law(stiffness, damping, 0.0).map(Law::since_start),
-        };
-        let drive = joint.definition.and_then(|definition| {
-            let at = definition
-                .spec
-                .measures
-                .iter()
-                .position(|m| m.name == angle)?;
-            definition.drives.get(at)
-        });
-        let (Some(drive), Some((bodies, arguments)), Some(law)) = (drive, joint.with_motion(), law)
-        else {
-            return;
-        };
-        match (drive.law)(&arguments, law) {
-            Ok(element) => {
-                self.list.push(Force {
-                    name: name.to_owned(),
-                    bodies,
-                    element,
-                    functions: vec![Function::time()],
-                });
-                self.entries.push(entry);
-            }
-            Err(error) => findings.error(
-                Mistake::Registry,
-                at,
-                format!("{subject}: {error}"),
-                "not possible",
-            ),
-        }
-    }
+/// Reads a spring on the angle of a joint; `None` if it could not be read.
+pub(crate) fn read<S: SceneSpace>(
+    table: &mut Table,
+    name: &str,
+    references: &References<'_, '_, '_, S>,
+) -> Option<Force<S>> {
+    let usage = (Purpose::Spring, references.is_active);
+    let _ = table.optional(TYPE);
+    let of = table.required(&OF);
+    let joint = of
+        .as_ref()
+        .and_then(|field| references.joints.one(field, usage));
+    let measure = table.optional(&MEASURE);
+    let [stiffness, damping] = [
+        (&STIFFNESS, Unit::TorsionStiffness),
+        (&DAMPING, Unit::TorsionDamping),
+    ]
+    .map(|(key, unit)| table.of_key(key)?.number(unit.into()));
+    let free = table.of_key(&FREE_ANGLE);
+    let free = free.map(|field| field.number(FREE_ANGLE.unit));
+    let (joint, of) = (joint?, of?);
+    let asked = match &measure {
+        Some(field) => Some(field.text(MEASURE.expected)?),
+        None => None,
+    };
+    let field = measure.as_ref().unwrap_or(&of);
+    let angle = joint.measure(asked, Purpose::Spring, field)?;
+    let (stiffness, damping) = (stiffness?, damping?);
+    let law = match free {
+        Some(free) => law(stiffness, damping, free?),
+        None => law(stiffness, damping, 0.0).map(Law::since_start),
+    };
+    angle.force(name, law?, field)
 }
 
 /// −(k·(angle − free) + c·rate)

@@ -8,11 +8,10 @@ use serde_json::json;
 
 use crate::body::{BodyNames, GROUND};
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::key::{Key, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
-use crate::space::{Kept, SceneSpace};
+use crate::space::{BodyCoordinate, SceneSpace};
 use crate::table::Table;
 
 const KEEP: Key = Key::optional(
@@ -30,38 +29,31 @@ const ALLOW_CORRECTION: Key = Key::optional("allow_correction", "true or false",
 pub(crate) const KEYS: [Key; 2] = [KEEP, ALLOW_CORRECTION];
 
 /// Reads the section.
-pub(crate) fn read<S: SceneSpace>(
-    mut table: Table,
-    bodies: &BodyNames,
-    findings: &mut Findings,
-) -> StartOptions {
-    let mut kept: Vec<Coordinate> = Vec::new();
+pub(crate) fn read<S: SceneSpace>(mut table: Table, bodies: &BodyNames) -> StartOptions {
+    let mut keep: Vec<Coordinate> = Vec::new();
     let mut named = HashMap::new();
-    let items = table
-        .optional(&KEEP)
-        .and_then(|field| field.items(KEEP.expected, findings))
-        .unwrap_or_default();
-    for item in items {
-        let Some((body, found)) = kept_of::<S>(&item, bodies, findings) else {
+    for item in table.items(&KEEP) {
+        let Some((body, found)) = coordinate::<S>(&item, bodies) else {
             continue;
         };
-        let Kept { dofs, level, .. } = found;
+        let BodyCoordinate { dofs, level, .. } = found;
         let twice = "`[start]`: `keep` names a coordinate twice";
         for dof in dofs.clone() {
             let level = *level;
             let thing = (body, dof, level == KeepLevel::Position);
-            if !findings.is_first(&mut named, thing, item.span(), twice) {
+            if !table
+                .findings
+                .is_first(&mut named, thing, item.span(), twice)
+            {
                 break;
             }
-            kept.push(Coordinate { body, dof, level });
+            keep.push(Coordinate { body, dof, level });
         }
     }
-    let allowed = table
-        .optional(&ALLOW_CORRECTION)
-        .and_then(|field| field.boolean(findings));
-    table.close(findings);
+    let allowed = table.flag(&ALLOW_CORRECTION);
+    table.close();
     StartOptions {
-        keep: kept,
+        keep,
         correction: match allowed {
             Some(true) => CorrectionLimit::Any,
             _ => CorrectionLimit::Small,
@@ -72,19 +64,18 @@ pub(crate) fn read<S: SceneSpace>(
 }
 
 /// Parses a coordinate such as `body.angle`.
-fn kept_of<S: SceneSpace>(
+fn coordinate<S: SceneSpace>(
     item: &Field,
     bodies: &BodyNames,
-    findings: &mut Findings,
-) -> Option<(usize, &'static Kept)> {
+) -> Option<(usize, &'static BodyCoordinate)> {
     const EXPECTED: &str = "a coordinate of a body, as \"crank.angle\"";
-    let text = item.text(EXPECTED, findings)?;
+    let text = item.text(EXPECTED)?;
     let Some((body, name)) = text.rsplit_once('.') else {
-        item.mismatch(EXPECTED, findings);
+        item.mismatch(EXPECTED);
         return None;
     };
     if body == GROUND {
-        findings.error(
+        item.findings.error(
             Mistake::UnknownCoordinate,
             item.span(),
             "`[start]`: `keep` names the ground, which has no coordinates",
@@ -94,12 +85,12 @@ fn kept_of<S: SceneSpace>(
     }
     let at = bodies.position(body);
     if at.is_none() {
-        bodies.unknown(item.span(), "`[start]`", body, findings);
+        bodies.unknown(item, body);
     }
-    let found = S::KEPT.iter().find(|known| known.name == name);
+    let found = S::COORDINATES.iter().find(|known| known.name == name);
     if found.is_none() {
-        let names = || S::KEPT.iter().map(|known| known.name);
-        findings.error_with_help(
+        let names = || S::COORDINATES.iter().map(|known| known.name);
+        item.findings.error_with_help(
             Mistake::UnknownCoordinate,
             item.span(),
             format!("`[start]`: `keep` names the unknown coordinate `{name}`"),

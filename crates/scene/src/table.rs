@@ -13,6 +13,7 @@ use crate::key::Key;
 use crate::language::Language;
 use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
+use crate::space::SceneSpace;
 
 /// What is said of something that another space has.
 pub(crate) fn belongs(what: &str, space: &str) -> String {
@@ -28,9 +29,11 @@ pub(crate) struct Table<'t> {
     entries: &'t DeTable<'t>,
     /// What its numbers mean.
     language: &'t Language,
+    /// Where problems are reported.
+    pub(crate) findings: &'t Findings<'t>,
     known: Vec<&'static str>,
     /// Keys that are missing, with the index of the problem in the findings.
-    missing: Vec<(&'static str, usize)>,
+    absent: Vec<(&'static str, usize)>,
     /// Keys that scenes of a space have, with its name.
     by_space: Vec<(&'static str, &'static str)>,
 }
@@ -40,15 +43,16 @@ impl<'t> Table<'t> {
         subject: impl Into<Rc<str>>,
         header: Range<usize>,
         entries: &'t DeTable<'t>,
-        language: &'t Language,
+        (language, findings): (&'t Language, &'t Findings<'t>),
     ) -> Self {
         Self {
             subject: subject.into(),
             header,
             entries,
             language,
+            findings,
             known: Vec::new(),
-            missing: Vec::new(),
+            absent: Vec::new(),
             by_space: Vec::new(),
         }
     }
@@ -65,18 +69,55 @@ impl<'t> Table<'t> {
         if !self.known.contains(&key) {
             self.known.push(key);
         }
+        self.field(key)
+    }
+
+    /// The value of a key; this does not mark it as known.
+    pub(crate) fn field(&self, key: &'static str) -> Option<Field<'t>> {
         let value = self.entries.get(key)?;
         Some(Field {
             subject: Rc::clone(&self.subject),
             key: Cow::Borrowed(key),
             value,
             language: self.language,
+            findings: self.findings,
         })
     }
 
     /// The value of a required key.
-    pub(crate) fn required(&mut self, key: &Key, findings: &mut Findings) -> Option<Field<'t>> {
-        self.needed(key.name, key.expected, findings)
+    pub(crate) fn required(&mut self, key: &Key) -> Option<Field<'t>> {
+        self.needed(key.name, key.expected)
+    }
+
+    /// The value of a key, which is reported if it is required and missing.
+    pub(crate) fn of_key(&mut self, key: &Key) -> Option<Field<'t>> {
+        if key.is_required {
+            self.required(key)
+        } else {
+            self.optional(key)
+        }
+    }
+
+    /// The number under a key.
+    pub(crate) fn number(&mut self, key: &Key) -> Option<f64> {
+        self.of_key(key)?.number(key.unit)
+    }
+
+    /// The vector under a key.
+    pub(crate) fn vector<S: SceneSpace>(&mut self, key: &Key) -> Option<S::Vector<f64>> {
+        self.of_key(key)?.vector::<S>(key.expected, key.unit)
+    }
+
+    /// `true` or `false` under a key.
+    pub(crate) fn flag(&mut self, key: &Key) -> Option<bool> {
+        self.of_key(key)?.boolean()
+    }
+
+    /// The list under a key; nothing if it is missing, or is no list, which is reported.
+    pub(crate) fn items(&mut self, key: &Key) -> Vec<Field<'t>> {
+        let field = self.of_key(key);
+        let items = field.and_then(|field| field.items(key.expected));
+        items.unwrap_or_default()
     }
 
     /// The value of a required key whose type is stated by a definition.
@@ -84,12 +125,11 @@ impl<'t> Table<'t> {
         &mut self,
         key: &'static str,
         expected: impl Display,
-        findings: &mut Findings,
     ) -> Option<Field<'t>> {
         let field = self.optional(key);
         if field.is_none() {
             let message = format!("{} needs the key `{key}`: {expected}", self.subject);
-            self.lacks(key, message, format!("`{key}` is missing here"), findings);
+            self.lacks(key, message, format!("`{key}` is missing here"));
         }
         field
     }
@@ -100,10 +140,32 @@ impl<'t> Table<'t> {
         key: &'static str,
         message: impl Into<String>,
         label: impl Into<String>,
-        findings: &mut Findings,
     ) {
-        self.missing.push((key, findings.next()));
-        findings.error(Mistake::Missing, self.header.clone(), message, label);
+        self.absent.push((key, self.findings.next()));
+        self.findings
+            .error(Mistake::Missing, self.header.clone(), message, label);
+    }
+
+    /// Reports that something is missing; the message continues the description of the table.
+    pub(crate) fn missing(&self, message: impl Display, label: impl Into<String>) {
+        let message = format!("{}{message}", self.subject);
+        let at = self.header.clone();
+        self.findings.error(Mistake::Missing, at, message, label);
+    }
+
+    /// Reports two values that exclude each other, each with its label; `ways` are their keys.
+    pub(crate) fn exclusive(&self, ways: impl Display, values: [(Range<usize>, &str); 2]) {
+        let message = format!("{} takes {ways}, not both", self.subject);
+        let [(first, of_first), (second, of_second)] = values;
+        let findings = self.findings;
+        findings.collision(
+            Mistake::Exclusive,
+            second,
+            message,
+            of_second,
+            first,
+            of_first,
+        );
     }
 
     /// All keys with their values, for tables whose keys are names.
@@ -115,6 +177,7 @@ impl<'t> Table<'t> {
                 key: Cow::Borrowed(name),
                 value,
                 language: self.language,
+                findings: self.findings,
             };
             (key.span(), field)
         };
@@ -149,7 +212,7 @@ impl<'t> Table<'t> {
 
     /// Reports unknown keys. An unknown key that is similar to a missing key is reported together
     /// with it.
-    pub(crate) fn close(self, findings: &mut Findings) {
+    pub(crate) fn close(self) {
         let known = || self.known.iter().copied();
         for key in self.entries.keys() {
             let name = key.get_ref();
@@ -163,10 +226,10 @@ impl<'t> Table<'t> {
                 (None, Some(near)) => format!("did you mean `{near}`?"),
                 (None, None) => "unknown key".to_owned(),
             };
-            if let Some((_, problem)) = self.missing.iter().find(|(key, _)| near == Some(key)) {
-                findings.explain(*problem);
+            if let Some((_, problem)) = self.absent.iter().find(|(key, _)| near == Some(key)) {
+                self.findings.explain(*problem);
             }
-            findings.error_with_help(
+            self.findings.error_with_help(
                 Mistake::UnknownKey,
                 key.span(),
                 format!("{} has no key `{name}`", self.subject),

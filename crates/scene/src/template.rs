@@ -13,7 +13,7 @@ use std::ops::Range;
 
 use toml::de::DeTable;
 
-use key::Wanted;
+use key::SlotKind;
 
 pub use key::KeyError;
 pub use rest::at_rest;
@@ -68,12 +68,12 @@ struct Slot {
     span: Range<usize>,
     before: String,
     after: &'static str,
-    was: Was,
+    old: OldValue,
 }
 
 /// What the text has at the place of a number.
 #[derive(Clone, Debug)]
-enum Was {
+enum OldValue {
     /// Nothing, or something that is no number.
     Other,
     /// A number.
@@ -92,16 +92,16 @@ impl Template {
     /// - [`KeyError::NotANumber`], [`KeyError::NoRoom`]: there is no number, and none can be added.
     /// - [`KeyError::Repeated`]: two keys refer to the same number.
     pub fn new(text: &str, keys: &[&str]) -> Result<Self, KeyError> {
-        Self::of(text, keys, Wanted::Number)
+        Self::of(text, keys, SlotKind::Number)
     }
 
     /// Finds the places of these keys.
-    fn of(text: &str, keys: &[&str], wanted: Wanted) -> Result<Self, KeyError> {
+    fn of(text: &str, keys: &[&str], kind: SlotKind) -> Result<Self, KeyError> {
         if limits::excess(text).is_some() {
             return Err(KeyError::NotToml);
         }
         let root = DeTable::parse(text).map_err(|_| KeyError::NotToml)?;
-        let find = |key: &&str| key::find(key, text, root.get_ref(), wanted);
+        let find = |key: &&str| key::find(key, text, root.get_ref(), kind);
         let found = keys.iter().map(find).collect::<Result<Vec<_>, _>>()?;
         let mut slots: Vec<(usize, Slot)> = found.into_iter().enumerate().collect();
         slots.sort_by_key(|(k, slot)| (slot.span.start, *k));
@@ -185,16 +185,16 @@ impl Template {
         let mut texts = vec![String::new(); self.slots.len()];
         for (k, slot) in &self.slots {
             let share = shares[*k];
-            texts[*k] = match &slot.was {
+            texts[*k] = match &slot.old {
                 _ if share == 0.0 => self.text[slot.span.clone()].to_owned(),
-                Was::Number(x) if *x == 0.0 => number(share),
-                Was::Number(x) => number(x * (1.0 + share)),
-                Was::Expression(text) => {
+                OldValue::Number(x) if *x == 0.0 => number(share),
+                OldValue::Number(x) => number(x * (1.0 + share)),
+                OldValue::Expression(text) => {
                     let factor = number(1.0 + share);
                     toml::Value::from(format!("({text})*{factor}")).to_string()
                 }
-                Was::Other if slot.span.is_empty() => number(share),
-                Was::Other => return None,
+                OldValue::Other if slot.span.is_empty() => number(share),
+                OldValue::Other => return None,
             };
         }
         Some(self.filled(&texts))
@@ -221,20 +221,20 @@ impl Template {
         let mut texts = vec![String::new(); self.slots.len()];
         for (k, slot) in &self.slots {
             let computed = |text: &str| toml::Value::from(text).to_string();
-            texts[*k] = match (&slot.was, &shifts[*k]) {
-                (Was::Other, _) => return None,
-                (Was::Number(x), Shift::By(by)) => number(x + by),
-                (Was::Number(x), Shift::Share(share)) => number(x * (1.0 + share)),
-                (Was::Number(x), Shift::Of(by, unit)) => {
+            texts[*k] = match (&slot.old, &shifts[*k]) {
+                (OldValue::Other, _) => return None,
+                (OldValue::Number(x), Shift::By(by)) => number(x + by),
+                (OldValue::Number(x), Shift::Share(share)) => number(x * (1.0 + share)),
+                (OldValue::Number(x), Shift::Of(by, unit)) => {
                     computed(&format!("{} + {} {unit}", number(*x), number(*by)))
                 }
-                (Was::Expression(text), Shift::By(by)) => {
+                (OldValue::Expression(text), Shift::By(by)) => {
                     computed(&format!("({text}) + {}", number(*by)))
                 }
-                (Was::Expression(text), Shift::Share(share)) => {
+                (OldValue::Expression(text), Shift::Share(share)) => {
                     computed(&format!("({text})*{}", number(1.0 + share)))
                 }
-                (Was::Expression(text), Shift::Of(by, unit)) => {
+                (OldValue::Expression(text), Shift::Of(by, unit)) => {
                     computed(&format!("({text}) + {} {unit}", number(*by)))
                 }
             };

@@ -3,7 +3,6 @@
 use model::Tolerance;
 
 use crate::dimension::Dimension;
-use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
 use crate::table::Table;
 
@@ -31,15 +30,15 @@ const fn positive(name: &'static str) -> Key {
 }
 
 /// Reads a tolerance, if it is given. Its sign is checked with the mechanism.
-pub(crate) fn read(table: &mut Table, key: &Key, findings: &mut Findings) -> Option<f64> {
+pub(crate) fn read(table: &mut Table, key: &Key) -> Option<f64> {
     let field = table.optional(key)?;
-    field.number_expected(key.expected, key.unit, findings)
+    field.number_expected(key.expected, key.unit)
 }
 
 /// Reads the tolerances of `[scene]`.
-pub(crate) fn of_scene(table: &mut Table, findings: &mut Findings) -> Tolerance {
+pub(crate) fn of_scene(table: &mut Table) -> Tolerance {
     Tolerance {
-        length: read(table, &OF_SCENE, findings),
-        angle: read(table, &ANGLE, findings),
+        length: read(table, &OF_SCENE),
+        angle: read(table, &ANGLE),
     }
 }

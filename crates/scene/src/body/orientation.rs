@@ -5,7 +5,6 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::dimension::Dimension;
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
 use crate::nearest::list;
@@ -47,21 +46,21 @@ const MATRIX_EXPECTED: &str = "a rotation matrix of three rows";
 const ROUGH: f64 = 1e-2;
 
 /// Reads an orientation as a quaternion (w, x, y, z) of any length.
-pub(crate) fn read(field: &Field, findings: &mut Findings) -> Option<[f64; 4]> {
-    let mut table = field.table(ORIENTATION.expected, findings)?;
+pub(crate) fn read(field: &Field) -> Option<[f64; 4]> {
+    let mut table = field.table(ORIENTATION.expected)?;
     let given = [&QUATERNION, &AXIS, &RPY, &MATRIX].map(|key| table.optional(key));
     let angle = table.optional(&ANGLE);
     let read = match given {
-        [Some(q), None, None, None] => quaternion(&q, findings),
-        [None, Some(axis), None, None] => about(&table, &axis, angle.clone(), findings),
+        [Some(q), None, None, None] => quaternion(&q),
+        [None, Some(axis), None, None] => about(&table, &axis, angle.clone()),
         [None, None, Some(rpy), None] => {
-            let rpy = rpy.vector::<Space3>(RPY.expected, RPY.unit, findings);
+            let rpy = rpy.vector::<Space3>(RPY.expected, RPY.unit);
             rpy.map(|[r, p, y]| numbers(UnitQuaternion::from_euler_angles(r, p, y)))
         }
-        [None, None, None, Some(m)] => rotation(&m, findings),
+        [None, None, None, Some(m)] => rotation(&m),
         _ => {
             let ways = list(["quaternion", "axis", "rpy", "matrix"]);
-            findings.error(
+            field.findings.error(
                 Mistake::Exclusive,
                 field.span(),
                 format!("{} needs one of the keys {ways}", table.subject),
@@ -73,9 +72,11 @@ pub(crate) fn read(field: &Field, findings: &mut Findings) -> Option<[f64; 4]> {
     if let Some(angle) = angle.filter(|_| !table.has(AXIS.name)) {
         let subject = &table.subject;
         let message = format!("{subject} has an `angle` without an `axis`");
-        findings.error(Mistake::Missing, angle.span(), message, "about which axis?");
+        field
+            .findings
+            .error(Mistake::Missing, angle.span(), message, "about which axis?");
     }
-    table.close(findings);
+    table.close();
     read
 }
 
@@ -84,42 +85,28 @@ fn numbers(q: UnitQuaternion<f64>) -> [f64; 4] {
 }
 
 /// Four numbers that are not all zero.
-fn quaternion(field: &Field, findings: &mut Findings) -> Option<[f64; 4]> {
-    let e = field.numbers(4, QUATERNION.expected, |_| Dimension::NONE, findings)?;
+fn quaternion(field: &Field) -> Option<[f64; 4]> {
+    let e = field.numbers(4, QUATERNION.expected, |_| Dimension::NONE)?;
     let e: [f64; 4] = e.try_into().ok()?;
     let length = e.iter().fold(0.0_f64, |length, x| length.hypot(*x));
     if length == 0.0 {
-        findings.error(
+        field.error(
             Mistake::NoDirection,
-            field.span(),
-            format!(
-                "{}: `{}` is zero, which is no orientation",
-                field.subject, field.key
-            ),
+            format!(": `{}` is zero, which is no orientation", field.key),
             "no orientation",
         );
         return None;
     }
-    warn_of_rough(
-        field,
-        (length - 1.0).abs(),
-        "its length differs from 1 by",
-        findings,
-    );
+    warn_of_rough(field, (length - 1.0).abs(), "its length differs from 1 by");
     Some(e)
 }
 
 /// A rotation about an axis.
-fn about(
-    table: &Table,
-    axis: &Field,
-    angle: Option<Field>,
-    findings: &mut Findings,
-) -> Option<[f64; 4]> {
-    let [x, y, z] = axis.vector::<Space3>(AXIS.expected, AXIS.unit, findings)?;
+fn about(table: &Table, axis: &Field, angle: Option<Field>) -> Option<[f64; 4]> {
+    let [x, y, z] = axis.vector::<Space3>(AXIS.expected, AXIS.unit)?;
     let Some(angle) = angle else {
         let message = format!("{} has an `axis` without an `angle`", table.subject);
-        findings.error(
+        table.findings.error(
             Mistake::Missing,
             axis.span(),
             message,
@@ -127,12 +114,11 @@ fn about(
         );
         return None;
     };
-    let angle = angle.number(ANGLE.unit, findings)?;
+    let angle = angle.number(ANGLE.unit)?;
     let Some(axis) = joints::space3::Direction::new([x, y, z]) else {
-        findings.error(
+        axis.error(
             Mistake::NoDirection,
-            axis.span(),
-            format!("{}: `{}` has length zero", axis.subject, axis.key),
+            format!(": `{}` has length zero", axis.key),
             "has no direction",
         );
         return None;
@@ -143,8 +129,8 @@ fn about(
 }
 
 /// The rotation next to a matrix: its orthogonal factor.
-fn rotation(field: &Field, findings: &mut Findings) -> Option<[f64; 4]> {
-    let rows = field.matrix(MATRIX_EXPECTED, Dimension::NONE, findings)?;
+fn rotation(field: &Field) -> Option<[f64; 4]> {
+    let rows = field.matrix(MATRIX_EXPECTED, Dimension::NONE)?;
     let m = Matrix3::from_rows(&rows.map(|row| Vector3::from(row).transpose()));
     let svd = m.svd(true, true);
     let (Some(u), Some(v)) = (svd.u, svd.v_t) else {
@@ -158,23 +144,22 @@ fn rotation(field: &Field, findings: &mut Findings) -> Option<[f64; 4]> {
         "is a reflection: no rotation turns a right hand into a left one"
     } else {
         let off = (m - polar).amax();
-        warn_of_rough(field, off, "it differs from a rotation by", findings);
+        warn_of_rough(field, off, "it differs from a rotation by");
         let rotation = Rotation3::from_matrix_unchecked(polar);
         return Some(numbers(UnitQuaternion::from_rotation_matrix(&rotation)));
     };
-    findings.error(
+    field.error(
         const { Code::new(152) },
-        field.span(),
-        format!("{}: `{}` {fault}", field.subject, field.key),
+        format!(": `{}` {fault}", field.key),
         "no orientation",
     );
     None
 }
 
 /// Warns of numbers that are not those of a rotation; the nearest one is taken.
-fn warn_of_rough(field: &Field, off: f64, what: &str, findings: &mut Findings) {
+fn warn_of_rough(field: &Field, off: f64, what: &str) {
     if off > ROUGH {
-        findings.warning(
+        field.findings.warning(
             const { Code::new(199) },
             field.span(),
             format!("{}: `{}`: {what} {off:.2e}", field.subject, field.key),

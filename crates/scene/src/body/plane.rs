@@ -6,7 +6,6 @@ use serde_json::json;
 
 use super::SceneBody;
 use crate::dimension::Dimension;
-use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
 use crate::table::Table;
 use crate::tolerance;
@@ -76,54 +75,25 @@ impl SceneBody for Plane {
     )
     .doc("Where the body starts if that is not where it is described: { position, angle } of its frame, as described where one is left out. Points `at`, what `fixed` joints and gears keep, free lengths and the zeros of measures are still those of the described start");
 
-    fn read_start(start: &mut Table, body: &Body, findings: &mut Findings) -> FramePose {
+    fn read_start(start: &mut Table, body: &Body) -> FramePose {
         let [position, angle] = &START_KEYS;
-        let at = start
-            .optional(position)
-            .and_then(|field| field.vector::<Self>(position.expected, position.unit, findings));
-        let turned = start
-            .optional(angle)
-            .and_then(|field| field.number(angle.unit, findings));
         FramePose::Plane {
-            position: at.unwrap_or(body.position),
-            angle: turned.unwrap_or(body.angle),
+            position: start.vector::<Self>(position).unwrap_or(body.position),
+            angle: start.number(angle).unwrap_or(body.angle),
         }
     }
 
-    fn read_body(table: &mut Table, name: &str, findings: &mut Findings) -> Body {
-        let mut required = |key: &Key| {
-            table
-                .required(key, findings)
-                .and_then(|field| field.number(key.unit, findings))
-                .unwrap_or_default()
-        };
-        let (mass, inertia) = (required(&MASS), required(&INERTIA));
-        let mut pair = |key: &Key| {
-            table
-                .optional(key)
-                .and_then(|field| field.vector::<Self>(key.expected, key.unit, findings))
-        };
-        let mut place = |key: &Key| pair(key).unwrap_or_default();
-        let (centre, position) = (place(&CENTRE), place(&POSITION));
-        let velocity = pair(&VELOCITY);
-        let mut number = |key: &Key| {
-            let field = table.optional(key);
-            field.and_then(|field| field.number(key.unit, findings))
-        };
-        let (angle, angular_velocity) = (
-            number(&ANGLE).unwrap_or_default(),
-            number(&ANGULAR_VELOCITY),
-        );
+    fn read_body(table: &mut Table, name: &str) -> Body {
         Body {
             name: name.to_owned(),
-            mass,
-            inertia,
-            centre,
-            position,
-            angle,
-            velocity,
-            angular_velocity,
-            tolerance: tolerance::read(table, &TOLERANCE, findings),
+            mass: table.number(&MASS).unwrap_or_default(),
+            inertia: table.number(&INERTIA).unwrap_or_default(),
+            centre: table.vector::<Self>(&CENTRE).unwrap_or_default(),
+            position: table.vector::<Self>(&POSITION).unwrap_or_default(),
+            velocity: table.vector::<Self>(&VELOCITY),
+            angle: table.number(&ANGLE).unwrap_or_default(),
+            angular_velocity: table.number(&ANGULAR_VELOCITY),
+            tolerance: tolerance::read(table, &TOLERANCE),
         }
     }
 }

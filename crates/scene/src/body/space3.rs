@@ -7,7 +7,6 @@ use serde_json::json;
 use super::{SceneBody, orientation};
 use crate::dimension::Dimension;
 use crate::field::Field;
-use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
 use crate::table::Table;
@@ -69,59 +68,48 @@ impl SceneBody for Space3 {
     )
     .doc("Where the body starts if that is not where it is described: { position, orientation } of its frame, as described where one is left out. Points `at`, what `fixed` joints and gears keep, free lengths and the zeros of measures are still those of the described start");
 
-    fn read_start(start: &mut Table, body: &SpatialBody, findings: &mut Findings) -> FramePose {
+    fn read_start(start: &mut Table, body: &SpatialBody) -> FramePose {
         let [position, orientation] = &START_KEYS;
-        let at = start
-            .optional(position)
-            .and_then(|field| field.vector::<Self>(position.expected, position.unit, findings));
-        let turned = start
-            .optional(orientation)
-            .and_then(|field| orientation::read(&field, findings));
+        let turned = start.of_key(orientation);
         FramePose::Space3 {
-            position: at.unwrap_or(body.position),
-            orientation: turned.unwrap_or(body.orientation),
+            position: start.vector::<Self>(position).unwrap_or(body.position),
+            orientation: turned
+                .and_then(|field| orientation::read(&field))
+                .unwrap_or(body.orientation),
         }
     }
 
-    fn read_body(table: &mut Table, name: &str, findings: &mut Findings) -> SpatialBody {
-        let mass = table.required(&MASS, findings);
-        let mass = mass.and_then(|field| field.number(MASS.unit, findings));
-        let inertia = table.required(&INERTIA, findings);
-        let inertia = inertia.and_then(|field| tensor(&field, findings));
-        let orientation = table.optional(&orientation::ORIENTATION);
-        let orientation = orientation.and_then(|field| orientation::read(&field, findings));
-        let mut vector = |key: &Key| {
-            table
-                .optional(key)
-                .and_then(|field| field.vector::<Self>(key.expected, key.unit, findings))
-        };
+    fn read_body(table: &mut Table, name: &str) -> SpatialBody {
+        let mass = table.number(&MASS).unwrap_or_default();
+        let inertia = table.of_key(&INERTIA).and_then(|field| tensor(&field));
+        let orientation = table.of_key(&orientation::ORIENTATION);
+        let orientation = orientation.and_then(|field| orientation::read(&field));
         SpatialBody {
-            centre: vector(&CENTRE).unwrap_or_default(),
-            position: vector(&POSITION).unwrap_or_default(),
+            centre: table.vector::<Self>(&CENTRE).unwrap_or_default(),
+            position: table.vector::<Self>(&POSITION).unwrap_or_default(),
             orientation: orientation.unwrap_or([1.0, 0.0, 0.0, 0.0]),
-            velocity: vector(&VELOCITY),
-            angular_velocity: vector(&ANGULAR_VELOCITY),
-            tolerance: tolerance::read(table, &TOLERANCE, findings),
-            ..SpatialBody::new(name, mass.unwrap_or_default(), inertia.unwrap_or_default())
+            velocity: table.vector::<Self>(&VELOCITY),
+            angular_velocity: table.vector::<Self>(&ANGULAR_VELOCITY),
+            tolerance: tolerance::read(table, &TOLERANCE),
+            ..SpatialBody::new(name, mass, inertia.unwrap_or_default())
         }
     }
 }
 
 /// Three moments, or a symmetric matrix.
-fn tensor(field: &Field, findings: &mut Findings) -> Option<[[f64; 3]; 3]> {
-    let items = field.items(INERTIA.expected, findings)?;
+fn tensor(field: &Field) -> Option<[[f64; 3]; 3]> {
+    let items = field.items(INERTIA.expected)?;
     if items.iter().any(|row| row.value.get_ref().is_array()) {
-        return field.matrix(INERTIA.expected, INERTIA.unit, findings);
+        return field.matrix(INERTIA.expected, INERTIA.unit);
     }
     // Not a vector: another number of moments belongs to no space.
-    let moments = field.numbers(3, INERTIA.expected, |_| INERTIA.unit, findings)?;
+    let moments = field.numbers(3, INERTIA.expected, |_| INERTIA.unit)?;
     let [x, y, z]: [f64; 3] = moments.try_into().ok()?;
     for (moment, item) in [x, y, z].iter().zip(&items) {
         if *moment < 0.0 {
-            findings.error(
+            item.error(
                 Mistake::OutOfRange,
-                item.span(),
-                format!("{}: `{}` has the moment {moment}", field.subject, field.key),
+                format!(": `{}` has the moment {moment}", field.key),
                 "may not be negative",
             );
             return None;

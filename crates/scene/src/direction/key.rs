@@ -32,10 +32,11 @@ pub(crate) fn keys(spec: &Spec) -> impl Iterator<Item = &'static str> {
         matches!(p.shape, Shape::Axes { like: Some(_), .. })
     });
     let takes_cross = has_axes && !has(spec, |p| p.name == CROSS);
+    // The axes of wheels are those of their bearings.
     let keys = [
         (FRAME, has(spec, is_written)),
-        (CROSS, takes_cross),
-        (AXES, has_axes && is_paired),
+        (CROSS, takes_cross && !spec.bearings),
+        (AXES, has_axes && is_paired && !spec.bearings),
     ];
     keys.into_iter()
         .filter(|(_, takes)| *takes)

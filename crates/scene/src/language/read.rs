@@ -47,30 +47,30 @@ fn angles() -> Vec<&'static str> {
 impl Language {
     /// Reads `format` and `units` of `[scene]`, and `[parameters]`. Other problems of these
     /// sections are left to their readers.
-    pub(crate) fn read(root: &mut Table, findings: &mut Findings) -> Self {
+    pub(crate) fn read(root: &mut Table) -> Self {
         let mut language = Self::PLAIN;
         let entries = |field: &Field| field.value.get_ref().is_table();
         let scene = root.optional(section::SCENE.name).filter(entries);
-        let head = scene.and_then(|field| field.table("", findings));
+        let head = scene.and_then(|field| field.table(""));
         let mut is_stated = false;
         let mut units = None;
         if let Some(mut head) = head {
             head.subject = "`[scene]`".into();
             let format = head.optional(&FORMAT);
             is_stated = format.is_some();
-            let format = format.and_then(|field| whole(&field, findings));
+            let format = format.and_then(|field| whole(&field));
             // A format that cannot be read has been reported.
             language.computes = format == Some(COMPUTING) || (is_stated && format.is_none());
             units = head.optional(&UNITS);
         }
-        let needs_format = |span, what: &str, findings: &mut Findings| {
+        let needs_format = |span, what: &str| {
             let help = if is_stated {
                 "write `format = 2` in `[scene]`"
             } else {
                 "add `format = 2` to `[scene]`"
             };
             let message = format!("{what} needs the format 2");
-            findings.error_with_help(
+            root.findings.error_with_help(
                 Mistake::NeedsFormat,
                 span,
                 message,
@@ -80,30 +80,30 @@ impl Language {
         };
         if let Some(field) = units {
             if !language.computes {
-                needs_format(field.span(), "`units`", findings);
+                needs_format(field.span(), "`units`");
             }
-            (language.bases, language.units) = bases(&field, findings);
+            (language.bases, language.units) = bases(&field);
         }
         if let Some(field) = root.optional(section::PARAMETERS.name) {
             if !language.computes {
-                needs_format(field.span(), "`[parameters]`", findings);
+                needs_format(field.span(), "`[parameters]`");
                 language.computes = true;
             }
-            language.parameters(&field, findings);
+            language.parameters(&field);
         }
         language
     }
 
     /// Reads the parameters, each after those that it names.
-    fn parameters(&mut self, field: &Field, findings: &mut Findings) {
-        let Some(table) = field.table("one table `[parameters]`", findings) else {
+    fn parameters(&mut self, field: &Field) {
+        let Some(table) = field.table("one table `[parameters]`") else {
             return;
         };
         let mut list: Vec<Parameter> = Vec::new();
         for (key, mut value) in table.all() {
             value.subject = "`[parameters]`".into();
             let name = value.key.to_string();
-            check_name(&name, key, findings);
+            check_name(&name, key, field.findings);
             self.parameters.insert(name.clone(), None);
             list.push(Parameter { name, value });
         }
@@ -125,9 +125,7 @@ impl Language {
         }
         let mut ready: Vec<usize> = (0..list.len()).filter(|k| waits[*k] == 0).collect();
         while let Some(k) = ready.pop() {
-            let value = list[k]
-                .value
-                .quantity("a number or an expression", self, findings);
+            let value = list[k].value.quantity("a number or an expression", self);
             self.parameters.insert(list[k].name.clone(), value);
             for &user in &users[k] {
                 waits[user] -= 1;
@@ -136,7 +134,7 @@ impl Language {
                 }
             }
         }
-        report_circles(&list, &needs, &waits, findings);
+        report_circles(&list, &needs, &waits);
     }
 }
 
@@ -147,12 +145,7 @@ struct Parameter<'t> {
 }
 
 /// Reports each circle of parameters once; parameters that only name one of a circle are left out.
-fn report_circles(
-    list: &[Parameter],
-    needs: &[Vec<(usize, Range<usize>)>],
-    waits: &[usize],
-    findings: &mut Findings,
-) {
+fn report_circles(list: &[Parameter], needs: &[Vec<(usize, Range<usize>)>], waits: &[usize]) {
     // 0: not yet seen; otherwise the number of the walk that came here.
     let mut seen = vec![0; list.len()];
     for first in (0..list.len()).filter(|k| waits[*k] > 0) {
@@ -173,6 +166,7 @@ fn report_circles(
         let names: Vec<&str> = names.chain([list[here].name.as_str()]).collect();
         let (at, span) = &circle[0];
         let value = &list[*at].value;
+        let findings = value.findings;
         let message = match circle.len() {
             1 => format!("the parameter `{}` depends on itself", names[0]),
             _ => format!(
@@ -182,7 +176,7 @@ fn report_circles(
         };
         findings.error_with_help(
             Mistake::Circle,
-            value.part(span.clone(), findings),
+            value.part(span.clone()),
             message,
             "closes the circle",
             "give one of them a value without the others".to_owned(),
@@ -205,7 +199,7 @@ fn list_of(names: &[&str], between: &str) -> String {
 }
 
 /// Reports a name that expressions cannot say, or that means something else to them.
-fn check_name(name: &str, span: Range<usize>, findings: &mut Findings) {
+fn check_name(name: &str, span: Range<usize>, findings: &Findings) {
     if let Some(what) = reserved(name) {
         findings.error_with_help(
             Mistake::ReservedName,
@@ -226,12 +220,12 @@ fn check_name(name: &str, span: Range<usize>, findings: &mut Findings) {
 }
 
 /// A whole number that `format` takes.
-fn whole(field: &Field, findings: &mut Findings) -> Option<i64> {
-    let format = field.integer(FORMAT.expected, findings)?;
+fn whole(field: &Field) -> Option<i64> {
+    let format = field.integer(FORMAT.expected)?;
     if (1..=COMPUTING).contains(&format) {
         return Some(format);
     }
-    findings.error(
+    field.findings.error(
         Mistake::OutOfRange,
         field.span(),
         format!("`[scene]`: `format` is {format}, need {}", FORMAT.expected),
@@ -241,24 +235,20 @@ fn whole(field: &Field, findings: &mut Findings) -> Option<i64> {
 }
 
 /// The units of bare numbers.
-fn bases(field: &Field, findings: &mut Findings) -> (Bases, Units) {
-    let Some(mut table) = field.table(UNITS.expected, findings) else {
+fn bases(field: &Field) -> (Bases, Units) {
+    let Some(mut table) = field.table(UNITS.expected) else {
         return (Bases::SI, Units::SI);
     };
     let mut base = |key: &Key, of: Dimension| {
         let field = table.optional(key)?;
-        let name = field.text(key.expected, findings)?;
+        let name = field.text(key.expected)?;
         let mut fitting = units().filter(|(_, unit)| unit.dimension == Some(of));
         let found = fitting.find(|(unit, _)| *unit == name);
         if found.is_none() {
             let names = names_of(of);
-            findings.error_with_help(
+            field.error_with_help(
                 Mistake::UnknownChoice,
-                field.span(),
-                format!(
-                    "{}: `{}` must be {}, found `{name}`",
-                    field.subject, field.key, key.expected
-                ),
+                format!(": `{}` must be {}, found `{name}`", field.key, key.expected),
                 "no such unit",
                 did_you_mean(name, names.iter().copied())
                     .or(Some(format!("there are {}", list(names.iter().copied())))),
@@ -268,7 +258,7 @@ fn bases(field: &Field, findings: &mut Findings) -> (Bases, Units) {
     };
     let length = base(&LENGTH, Dimension::LENGTH).unwrap_or((Units::SI.length, Dd::ONE));
     let angle = base(&ANGLE, Dimension::ANGLE).unwrap_or((Units::SI.angle, Dd::ONE));
-    table.close(findings);
+    table.close();
     let bases = Bases {
         length: length.1,
         angle: angle.1,

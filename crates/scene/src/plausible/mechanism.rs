@@ -34,12 +34,7 @@ const STEEL: f64 = 7850.0;
 const FARTHEST: f64 = 100.0;
 
 /// Warns of what is not plausible in a mechanism.
-pub(crate) fn check(
-    mechanism: &Mechanism,
-    map: &SourceMap,
-    unit: LengthUnit,
-    findings: &mut Findings,
-) {
+pub(crate) fn check(mechanism: &Mechanism, map: &SourceMap, unit: LengthUnit, findings: &Findings) {
     let records = mechanism.bodies();
     let joints = joints(mechanism);
     let bodies = bodies(mechanism, &joints);
@@ -50,17 +45,17 @@ pub(crate) fn check(
 }
 
 /// A joint with its points. Drives act at the points of their joints.
-struct Joint<'m> {
+struct JointPoints<'m> {
     name: &'m str,
     bodies: &'m [BodyRef],
     points: Vec<(BodyRef, [f64; 3])>,
 }
 
-fn joints(mechanism: &Mechanism) -> Vec<Joint<'_>> {
+fn joints(mechanism: &Mechanism) -> Vec<JointPoints<'_>> {
     let groups = mechanism.layout().groups.iter().enumerate();
     let joints = groups.filter(|(_, group)| !group.is_drive());
     joints
-        .map(|(k, group)| Joint {
+        .map(|(k, group)| JointPoints {
             name: &group.name,
             bodies: &group.bodies,
             points: mechanism.points(ConstraintId(k)),
@@ -70,7 +65,7 @@ fn joints(mechanism: &Mechanism) -> Vec<Joint<'_>> {
 
 /// What is known of the shape of a body.
 #[derive(Clone, Default)]
-struct Shape {
+struct BodyShape {
     /// Points of joints, forces and markers relative to the centre of mass.
     points: Vec<[f64; 3]>,
     is_held: bool,
@@ -78,7 +73,7 @@ struct Shape {
     forces: usize,
 }
 
-impl Shape {
+impl BodyShape {
     fn arms(&self) -> impl Iterator<Item = f64> {
         self.points.iter().map(|point| norm(point))
     }
@@ -89,9 +84,9 @@ impl Shape {
     }
 }
 
-fn bodies(mechanism: &Mechanism, joints: &[Joint]) -> Vec<Shape> {
+fn bodies(mechanism: &Mechanism, joints: &[JointPoints]) -> Vec<BodyShape> {
     let records = mechanism.bodies();
-    let mut bodies = vec![Shape::default(); records.len()];
+    let mut bodies = vec![BodyShape::default(); records.len()];
     let mut add = |points: &[(BodyRef, [f64; 3])]| {
         for (body, point) in points {
             if let BodyRef::Body(k) = body {
@@ -129,8 +124,8 @@ fn gyration(body: &BodyRecord) -> Option<f64> {
 
 /// Size of a mechanism: the upper median of all arms and radii of gyration, so that neither a few
 /// points far away nor many joints near centres of mass change it. `None` if there are none.
-fn size(records: &[BodyRecord], bodies: &[Shape]) -> Option<f64> {
-    let arms = bodies.iter().flat_map(Shape::arms);
+fn size(records: &[BodyRecord], bodies: &[BodyShape]) -> Option<f64> {
+    let arms = bodies.iter().flat_map(BodyShape::arms);
     let mut sizes: Vec<f64> = arms.chain(records.iter().filter_map(gyration)).collect();
     sizes.retain(|size| *size > 0.0);
     let middle = sizes.len() / 2;
@@ -139,7 +134,7 @@ fn size(records: &[BodyRecord], bodies: &[Shape]) -> Option<f64> {
 }
 
 /// Warns of bodies that no joint holds, if there are joints.
-fn unheld(records: &[BodyRecord], bodies: &[Shape], map: &SourceMap, findings: &mut Findings) {
+fn unheld(records: &[BodyRecord], bodies: &[BodyShape], map: &SourceMap, findings: &Findings) {
     if !bodies.iter().any(|body| body.is_held) {
         return;
     }
@@ -163,11 +158,11 @@ fn unheld(records: &[BodyRecord], bodies: &[Shape], map: &SourceMap, findings: &
 /// Warns of joints far from the centre of mass of a body.
 fn far(
     records: &[BodyRecord],
-    joints: &[Joint],
+    joints: &[JointPoints],
     map: &SourceMap,
     size: Option<f64>,
     unit: LengthUnit,
-    findings: &mut Findings,
+    findings: &Findings,
 ) {
     let Some(size) = size else { return };
     for (joint, entry) in joints.iter().zip(&map.joints) {
@@ -203,11 +198,11 @@ fn far(
 /// Warns of moments of inertia that fit no body of that mass and size.
 fn inertia(
     records: &[BodyRecord],
-    bodies: &[Shape],
+    bodies: &[BodyShape],
     map: &SourceMap,
     size: Option<f64>,
     unit: LengthUnit,
-    findings: &mut Findings,
+    findings: &Findings,
 ) {
     let Some(size) = size else { return };
     for ((body, shape), entry) in records.iter().zip(bodies).zip(&map.bodies) {
@@ -248,7 +243,7 @@ fn inertia(
 
 /// Warns of a body, such as a wheel, whose points are all at its centre of mass, if it is small in
 /// the mechanism and a ball of its mass and inertia is of no material.
-fn dense(body: &BodyRecord, entry: &Entry, size: f64, unit: LengthUnit, findings: &mut Findings) {
+fn dense(body: &BodyRecord, entry: &Entry, size: f64, unit: LengthUnit, findings: &Findings) {
     let Some(gyration) = gyration(body).filter(|radius| *radius < SMALL * size) else {
         return;
     };

@@ -2,22 +2,62 @@
 
 use std::ops::Range;
 
+use crate::findings::Findings;
+use crate::mistake::Mistake;
 use crate::units;
 
+/// Reports text that is not TOML, one error for each line. An error at the end of the text means
+/// that a bracket was never closed: only the first error shows where, and the others are its
+/// consequences.
+pub(super) fn report(errors: &[toml::de::Error], findings: &Findings) {
+    let text = findings.source.text();
+    let end = text.trim_end().len();
+    let start = |error: &toml::de::Error| error.span().map_or(0, |span| span.start);
+    let is_open = errors.iter().any(|error| start(error) >= end);
+    let open = errors.first().filter(|_| is_open);
+    if let Some(explanation) = open.and_then(|error| never_closed(text, start(error))) {
+        return explanation.report(findings);
+    }
+    let mut line = 0;
+    for (k, error) in errors.iter().enumerate() {
+        let here = findings.line(start(error));
+        if (is_open && k > 0) || here == line {
+            continue;
+        }
+        line = here;
+        let span = error.span().unwrap_or(0..0);
+        let explanation = match error.message() {
+            "duplicate key" => twice(text, span.clone()),
+            _ => fault(text, span.clone()),
+        };
+        match explanation {
+            Some(explanation) => explanation.report(findings),
+            None => findings.error(Mistake::NotToml, span, error.message(), LABEL),
+        }
+    }
+}
+
 /// The explanation that replaces the message of the parser.
-pub(super) struct Fault {
-    pub(super) span: Range<usize>,
-    pub(super) message: String,
-    pub(super) label: &'static str,
-    pub(super) help: String,
+struct Explanation {
+    span: Range<usize>,
+    message: String,
+    label: &'static str,
+    help: String,
+}
+
+impl Explanation {
+    fn report(self, findings: &Findings) {
+        let (mistake, help) = (Mistake::NotToml, self.help);
+        findings.error_with_help(mistake, self.span, self.message, self.label, help);
+    }
 }
 
 const LABEL: &str = "not valid TOML";
 
 /// A key that is given twice.
-pub(super) fn twice(text: &str, key: Range<usize>) -> Option<Fault> {
+fn twice(text: &str, key: Range<usize>) -> Option<Explanation> {
     let name = text.get(key.clone())?;
-    Some(Fault {
+    Some(Explanation {
         span: key,
         message: format!("`{name}` is given twice"),
         label: "given again here",
@@ -26,13 +66,13 @@ pub(super) fn twice(text: &str, key: Range<usize>) -> Option<Fault> {
 }
 
 /// A bracket that is still open at the first error, in a text that ends before it is closed.
-pub(super) fn never_closed(text: &str, first_error: usize) -> Option<Fault> {
+fn never_closed(text: &str, first_error: usize) -> Option<Explanation> {
     let at = open_bracket(text, text.floor_char_boundary(first_error))?;
     let closing = match text.as_bytes()[at] {
         b'{' => '}',
         _ => ']',
     };
-    Some(Fault {
+    Some(Explanation {
         span: at..at + 1,
         message: "a bracket is never closed".to_owned(),
         label: "opens here",
@@ -41,7 +81,7 @@ pub(super) fn never_closed(text: &str, first_error: usize) -> Option<Fault> {
 }
 
 /// The explanation of an error at this place, if the intention can be guessed.
-pub(super) fn fault(text: &str, span: Range<usize>) -> Option<Fault> {
+fn fault(text: &str, span: Range<usize>) -> Option<Explanation> {
     let at = text.floor_char_boundary(span.start);
     let begin = text[..at].rfind('\n').map_or(0, |k| k + 1);
     let end = text[at..].find('\n').map_or(text.len(), |k| at + k);
@@ -49,7 +89,7 @@ pub(super) fn fault(text: &str, span: Range<usize>) -> Option<Fault> {
     let says_format = |line: &str| line.replace(' ', "").starts_with("format=2");
     let computes = text.lines().any(says_format);
     let (message, help) = meant(text[begin..end].trim_end(), at - begin, computes)?;
-    Some(Fault {
+    Some(Explanation {
         span,
         message: message.to_owned(),
         label: LABEL,

@@ -7,70 +7,71 @@ use serde_json::{Map, Value, json};
 
 use super::value::{described, name_in, number, reference, tuple, vector};
 use crate::active::ACTIVE;
+use crate::bearings::{BEARINGS, PRESSURE_ANGLE};
 use crate::between::{MARKERS, takes_markers};
 use crate::body::GROUND;
 use crate::connection::{BODIES, BODY, listed};
 use crate::direction::{self, AXES, CROSS, FRAME, FRAMES};
 use crate::key::{Interval, TYPE};
-use crate::place::{AT, POINT, local_key};
+use crate::place::{AT, POINT, local_key, slots_of_points};
 use crate::section::NAME;
 use crate::space::SceneSpace;
-use crate::teeth::{BEARINGS, PRESSURE_ANGLE, line_of};
 use crate::tolerance;
 
 /// Kind of element in a section.
 #[derive(Clone, Copy)]
-pub(super) enum Kind {
+pub(super) enum ElementKind {
     Joint,
     Force,
 }
 
 /// The items of a section.
-pub(super) fn elements<S: SceneSpace>(registry: &Definitions<S>, kind: Kind) -> Value {
+pub(super) fn elements<S: SceneSpace>(registry: &Definitions<S>, kind: ElementKind) -> Value {
     let (title, mut specs): (_, Vec<&Spec>) = match kind {
-        Kind::Joint => ("Joint", registry.constraint_specs().collect()),
-        Kind::Force => ("Force", registry.force_specs().collect()),
+        ElementKind::Joint => ("Joint", registry.constraint_specs().collect()),
+        ElementKind::Force => ("Force", registry.force_specs().collect()),
     };
     // Definitions with the same type follow each other.
     specs.sort_by_key(|spec| spec.scene_type);
     let tables: Vec<Value> = specs
         .iter()
-        .map(|spec| {
-            if spec.bearings {
-                teeth::<S>(spec, title)
-            } else {
-                table::<S>(spec, kind, title)
-            }
-        })
+        .map(|spec| table::<S>(spec, kind, title))
         .collect();
     json!({ "title": title, "type": "object", "oneOf": tables })
 }
 
 /// The table of one definition.
-fn table<S: SceneSpace>(spec: &Spec, of: Kind, title: &str) -> Value {
+fn table<S: SceneSpace>(spec: &Spec, of: ElementKind, title: &str) -> Value {
     let mut properties = Map::new();
     let mut required = vec![NAME.name, TYPE];
     properties.insert(NAME.name.to_owned(), described(&NAME));
     let kind = json!({ "const": spec.scene_type, "description": in_one_line(spec.doc) });
     properties.insert(TYPE.to_owned(), kind);
-    let tolerance = matches!(of, Kind::Joint).then_some(&tolerance::OF_JOINT);
+    let tolerance = matches!(of, ElementKind::Joint).then_some(&tolerance::OF_JOINT);
     for key in tolerance.into_iter().chain([&ACTIVE]) {
         properties.insert(key.name.to_owned(), described(key));
     }
 
-    let bodies = match listed(spec) {
-        1 => BODY,
-        _ => BODIES,
-    };
-    properties.insert(bodies.to_owned(), connection(spec));
-    required.push(bodies);
-    for &slot in &spec.slots[listed(spec)..] {
-        let body = json!({
-            "description": format!("The body in the slot `{slot}` of the definition"),
-            "type": "string",
-            "default": GROUND,
-        });
-        properties.insert(slot.to_owned(), body);
+    if spec.bearings {
+        required.push(BEARINGS.name);
+        for key in [&BEARINGS, &PRESSURE_ANGLE] {
+            properties.insert(key.name.to_owned(), described(key));
+        }
+    } else {
+        let bodies = match listed(spec) {
+            1 => BODY,
+            _ => BODIES,
+        };
+        properties.insert(bodies.to_owned(), connection(spec));
+        required.push(bodies);
+        for &slot in &spec.slots[listed(spec)..] {
+            let body = json!({
+                "description": format!("The body in the slot `{slot}` of the definition"),
+                "type": "string",
+                "default": GROUND,
+            });
+            properties.insert(slot.to_owned(), body);
+        }
     }
     if let Some(variant) = spec.variant {
         let mut value = json!({ "const": variant.value });
@@ -84,11 +85,16 @@ fn table<S: SceneSpace>(spec: &Spec, of: Kind, title: &str) -> Value {
     let takes_markers = takes_markers::<S>(spec);
     let mut has_axes = None;
     let mut directions = Vec::new();
+    let mut all = Vec::new();
     for parameter in spec.parameters {
         match parameter.shape {
             Shape::Point { .. } | Shape::Axes { like: Some(_), .. } => continue,
-            Shape::Axes { .. } if parameter.optional => continue,
+            Shape::Axes { .. } if parameter.optional || spec.bearings => continue,
             Shape::Axes { .. } => has_axes = Some(parameter.name),
+            Shape::Direction { .. } if spec.bearings => {
+                let both = [parameter.name, PRESSURE_ANGLE.name];
+                all.push(json!({ "not": { "required": both } }));
+            }
             Shape::Direction { .. } if takes_markers => directions.push(parameter.name),
             _ if !parameter.optional => required.push(parameter.name),
             _ => {}
@@ -97,7 +103,7 @@ fn table<S: SceneSpace>(spec: &Spec, of: Kind, title: &str) -> Value {
     }
     let keys: Vec<&str> = direction::keys(spec).filter(|_| S::CARRIES).collect();
     for key in &keys {
-        properties.insert((*key).to_owned(), beside::<S>(key));
+        properties.insert((*key).to_owned(), beside::<S>(key, spec));
     }
     let mut table = json!({
         "title": format!("{title} `{}`", spec.scene_type),
@@ -110,7 +116,7 @@ fn table<S: SceneSpace>(spec: &Spec, of: Kind, title: &str) -> Value {
         properties.insert(MARKERS.to_owned(), two_markers());
         json!({ "required": [MARKERS] })
     });
-    let owners: Vec<usize> = spec.slots_of_points().collect();
+    let owners = slots_of_points(spec);
     if !owners.is_empty() {
         let local = local_key(spec);
         properties.insert(AT.to_owned(), global::<S>(spec, owners.len()));
@@ -119,7 +125,6 @@ fn table<S: SceneSpace>(spec: &Spec, of: Kind, title: &str) -> Value {
         ways.extend(markers.clone());
         table["oneOf"] = ways.into();
     }
-    let mut all = Vec::new();
     if let Some(axis) = has_axes {
         let mut ways = vec![json!({ "required": [axis] })];
         ways.extend(keys.contains(&AXES).then(|| json!({ "required": [AXES] })));
@@ -140,58 +145,6 @@ fn table<S: SceneSpace>(spec: &Spec, of: Kind, title: &str) -> Value {
     table
 }
 
-/// The table of a definition whose bodies are borne by other joints.
-fn teeth<S: SceneSpace>(spec: &Spec, title: &str) -> Value {
-    let keys = [NAME, BEARINGS, PRESSURE_ANGLE, tolerance::OF_JOINT, ACTIVE];
-    let mut properties: Map<String, Value> = keys
-        .iter()
-        .map(|key| (key.name.to_owned(), described(key)))
-        .collect();
-    let kind = json!({ "const": spec.scene_type, "description": in_one_line(spec.doc) });
-    properties.insert(TYPE.to_owned(), kind);
-    let place = |words: String| {
-        let mut place = reference(&name_in::<S>("place"));
-        place["description"] = words.into();
-        place
-    };
-    let at = format!(
-        "The pitch point {} in global coordinates, at the described start (m)",
-        S::VECTOR
-    );
-    let own = format!(
-        "The pitch point {} in the frame of the carrier (m)",
-        S::VECTOR
-    );
-    properties.insert(AT.to_owned(), place(at));
-    properties.insert(POINT.to_owned(), place(own));
-    properties.insert(FRAME.to_owned(), frame("the carrier"));
-    let mut all = vec![json!({ "oneOf": [{ "required": [AT] }, { "required": [POINT] }] })];
-    if let Some(line) = line_of(spec) {
-        let mut along = vector::<S>();
-        along["description"] = "The line of action in the frame of the carrier, or global; the normal of the plane of both axes, turned by the pressure angle, if it is not given".into();
-        properties.insert(line.to_owned(), along);
-        all.push(json!({ "not": { "required": [line, PRESSURE_ANGLE.name] } }));
-    }
-    json!({
-        "title": format!("{title} `{}`", spec.scene_type),
-        "description": in_one_line(spec.doc),
-        "type": "object",
-        "required": [NAME.name, TYPE, BEARINGS.name],
-        "additionalProperties": false,
-        "allOf": all,
-        "properties": properties,
-    })
-}
-
-/// `frame`
-fn frame(body: &str) -> Value {
-    json!({
-        "description": format!("Where directions are written: in the frame of {body}, or in ground axes of the described start"),
-        "enum": FRAMES,
-        "default": FRAMES[0],
-    })
-}
-
 /// `markers`
 fn two_markers() -> Value {
     let mut markers = tuple(vec![json!({ "type": "string" }); 2]);
@@ -201,9 +154,13 @@ fn two_markers() -> Value {
 }
 
 /// A key for directions beside the parameters.
-fn beside<S: SceneSpace>(key: &str) -> Value {
+fn beside<S: SceneSpace>(key: &str, spec: &Spec) -> Value {
     match key {
-        FRAME => frame("the first body"),
+        FRAME => json!({
+            "description": format!("Where directions are written: in the frame of {}, or in ground axes of the described start", owner(spec, 0)),
+            "enum": FRAMES,
+            "default": FRAMES[0],
+        }),
         CROSS => {
             let mut cross = vector::<S>();
             cross["description"] = "A direction across the axis, for the rows and for the reaction in joint axes; the coordinate axis of the first body that lies least along the axis where it is not given".into();
@@ -262,9 +219,10 @@ fn global<S: SceneSpace>(spec: &Spec, n: usize) -> Value {
 /// A description with the purpose of its points.
 fn with_points(words: impl Into<String>, spec: &Spec) -> String {
     let is_point = |p: &&Parameter| matches!(p.shape, Shape::Point { .. }) && !p.doc.is_empty();
-    let points = spec.parameters.iter().filter(is_point);
+    let points: Vec<_> = spec.parameters.iter().filter(is_point).collect();
+    let own = points.len().min(slots_of_points(spec).len());
     let mut words = words.into();
-    for (k, point) in points.enumerate() {
+    for (k, point) in points[points.len() - own..].iter().enumerate() {
         words.push_str(if k == 0 { ". " } else { " " });
         words.push_str(&in_one_line(point.doc));
     }
@@ -279,9 +237,10 @@ fn in_bodies<S: SceneSpace>(spec: &Spec, owners: &[usize]) -> Value {
         1 => place.clone(),
         n => tuple(vec![place.clone(); n]),
     };
-    if listed(spec) == 1 {
+    if local_key(spec) == POINT {
         let mut place = points(owners.len());
-        let words = format!("The place {} in the frame of the body (m)", S::VECTOR);
+        let (vector, body) = (S::VECTOR, owner(spec, 0));
+        let words = format!("The place {vector} in the frame of {body} (m)");
         place["description"] = with_points(words, spec).into();
         return place;
     }
@@ -343,6 +302,8 @@ fn value<S: SceneSpace>(parameter: &Parameter, spec: &Spec) -> Value {
     };
     let default = if parameter.optional {
         "; its value at the start where it is not given"
+    } else if spec.bearings {
+        "; the normal of the plane of both axes, turned by the pressure angle, if it is not given"
     } else {
         ""
     };
@@ -362,6 +323,7 @@ fn described_as(words: &str, mut schema: Value) -> Value {
 /// The body of a slot, as text.
 fn owner(spec: &Spec, slot: usize) -> String {
     match (listed(spec), slot) {
+        _ if spec.bearings => "the carrier".to_owned(),
         (1, 0) => "the body".to_owned(),
         (_, 0) => "the first body".to_owned(),
         (_, 1) => "the second body".to_owned(),

@@ -5,7 +5,7 @@ use model::start::KeepLevel;
 use model::{AnyDescription, Body, Definitions, Description, Registry};
 use serde_json::json;
 
-use super::{Kept, SceneSpace};
+use super::{BodyCoordinate, SceneSpace};
 use crate::dimension::Dimension;
 use crate::key::Key;
 
@@ -22,13 +22,13 @@ impl SceneSpace for Plane {
     const GLOBAL_POINT: &'static str = "a global point [x, y]";
     const BY_BODY: &'static str = "a table { body = [x, y], … }";
     const GRAVITY: Key = GRAVITY;
-    const KEPT: &'static [Kept] = &[
-        Kept::new("x", 0..1, KeepLevel::Position),
-        Kept::new("y", 1..2, KeepLevel::Position),
-        Kept::new("angle", 2..3, KeepLevel::Position),
-        Kept::new("vx", 0..1, KeepLevel::Velocity),
-        Kept::new("vy", 1..2, KeepLevel::Velocity),
-        Kept::new("omega", 2..3, KeepLevel::Velocity),
+    const COORDINATES: &'static [BodyCoordinate] = &[
+        BodyCoordinate::new("x", 0..1, KeepLevel::Position),
+        BodyCoordinate::new("y", 1..2, KeepLevel::Position),
+        BodyCoordinate::new("angle", 2..3, KeepLevel::Position),
+        BodyCoordinate::new("vx", 0..1, KeepLevel::Velocity),
+        BodyCoordinate::new("vy", 1..2, KeepLevel::Velocity),
+        BodyCoordinate::new("omega", 2..3, KeepLevel::Velocity),
     ];
 
     const CARRIES: bool = false;

@@ -6,7 +6,7 @@ use model::start::KeepLevel;
 use model::{AnyDescription, Definitions, Registry, SpatialBody, SpatialDescription};
 use serde_json::json;
 
-use super::{Kept, SceneSpace};
+use super::{BodyCoordinate, SceneSpace};
 use crate::dimension::Dimension;
 use crate::key::Key;
 
@@ -23,18 +23,18 @@ impl SceneSpace for Space3 {
     const GLOBAL_POINT: &'static str = "a global point [x, y, z]";
     const BY_BODY: &'static str = "a table { body = [x, y, z], … }";
     const GRAVITY: Key = GRAVITY;
-    const KEPT: &'static [Kept] = &[
-        Kept::new("x", 0..1, KeepLevel::Position),
-        Kept::new("y", 1..2, KeepLevel::Position),
-        Kept::new("z", 2..3, KeepLevel::Position),
-        Kept::new("rotation", 3..6, KeepLevel::Position),
-        Kept::new("vx", 0..1, KeepLevel::Velocity),
-        Kept::new("vy", 1..2, KeepLevel::Velocity),
-        Kept::new("vz", 2..3, KeepLevel::Velocity),
-        Kept::new("wx", 3..4, KeepLevel::Velocity),
-        Kept::new("wy", 4..5, KeepLevel::Velocity),
-        Kept::new("wz", 5..6, KeepLevel::Velocity),
-        Kept::new("omega", 3..6, KeepLevel::Velocity),
+    const COORDINATES: &'static [BodyCoordinate] = &[
+        BodyCoordinate::new("x", 0..1, KeepLevel::Position),
+        BodyCoordinate::new("y", 1..2, KeepLevel::Position),
+        BodyCoordinate::new("z", 2..3, KeepLevel::Position),
+        BodyCoordinate::new("rotation", 3..6, KeepLevel::Position),
+        BodyCoordinate::new("vx", 0..1, KeepLevel::Velocity),
+        BodyCoordinate::new("vy", 1..2, KeepLevel::Velocity),
+        BodyCoordinate::new("vz", 2..3, KeepLevel::Velocity),
+        BodyCoordinate::new("wx", 3..4, KeepLevel::Velocity),
+        BodyCoordinate::new("wy", 4..5, KeepLevel::Velocity),
+        BodyCoordinate::new("wz", 5..6, KeepLevel::Velocity),
+        BodyCoordinate::new("omega", 3..6, KeepLevel::Velocity),
     ];
 
     const CARRIES: bool = true;

@@ -4,7 +4,7 @@ use model::codes::Code;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{Slot, Was};
+use super::{OldValue, Slot};
 use crate::active::ACTIVE;
 use crate::field::{as_number, found};
 use crate::language::read::{COMPUTING, FORMAT};
@@ -111,7 +111,7 @@ fn inside(parts: &[String]) -> String {
 
 /// What may stand at the place of a key.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Wanted {
+pub(super) enum SlotKind {
     /// A number.
     Number,
     /// Any value, but not the header of a table.
@@ -123,7 +123,7 @@ pub(super) fn find(
     key: &str,
     text: &str,
     root: &DeTable,
-    wanted: Wanted,
+    kind: SlotKind,
 ) -> Result<Slot, KeyError> {
     let mut walk = Walk {
         key,
@@ -133,7 +133,7 @@ pub(super) fn find(
     let mut node = walk.first(root)?;
     loop {
         node = match node.get_ref() {
-            _ if walk.rest.is_empty() && wanted == Wanted::Value => return walk.value(node, text),
+            _ if walk.rest.is_empty() && kind == SlotKind::Value => return walk.value(node, text),
             _ if walk.rest.is_empty() => return walk.number(node),
             DeValue::Table(table) => match walk.entry(table) {
                 Ok(next) => next,
@@ -282,7 +282,7 @@ impl<'k> Walk<'k> {
             span,
             before: String::new(),
             after: "",
-            was: Was::Other,
+            old: OldValue::Other,
         })
     }
 
@@ -293,10 +293,10 @@ impl<'k> Walk<'k> {
                 span: node.span(),
                 before: String::new(),
                 after: "",
-                was: match (as_number(value), value.as_str()) {
-                    (Some(x), _) => Was::Number(x),
-                    (None, Some(text)) => Was::Expression(text.to_owned()),
-                    (None, None) => Was::Other,
+                old: match (as_number(value), value.as_str()) {
+                    (Some(x), _) => OldValue::Number(x),
+                    (None, Some(text)) => OldValue::Expression(text.to_owned()),
+                    (None, None) => OldValue::Other,
                 },
             }),
             DeValue::Array(items) => Err(not_a_number(self.key, items)),
@@ -347,7 +347,7 @@ impl<'k> Walk<'k> {
             span: at..at,
             before,
             after,
-            was: Was::Other,
+            old: OldValue::Other,
         })
     }
 }

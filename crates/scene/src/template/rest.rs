@@ -5,7 +5,7 @@
 use model::{DescribedBody, FramePose};
 use toml::de::DeTable;
 
-use super::key::Wanted;
+use super::key::SlotKind;
 use super::{KeyError, Template, number};
 use crate::language::Units;
 use crate::scene::Scene;
@@ -56,7 +56,7 @@ pub fn at_rest(scene: &Scene, poses: &[FramePose]) -> Result<String, KeyError> {
         }
     }
     let keys: Vec<&str> = values.iter().map(|(key, _)| key.as_str()).collect();
-    let template = Template::of(text, &keys, Wanted::Value)?;
+    let template = Template::of(text, &keys, SlotKind::Value)?;
     let texts: Vec<String> = values.iter().map(|(_, value)| value.clone()).collect();
     Ok(template.filled(&texts))
 }

@@ -329,7 +329,7 @@ fn places_and_parameters() {
         (
             "[[joint]]\nname = \"W\"\ntype = \"knife-edge\"\nbody = \"crank\"\nat = [1.0, 2.0]",
             "«[[joint]]»\nname = \"W\"\ntype = \"knife-edge\"\nbody = \"crank\"",
-            "joint `W` needs a place: `at = [x, y]` in global coordinates, or `point` in the frames of the bodies",
+            "joint `W` needs a place: `at = [x, y]` in global coordinates, or `point` in the frame of the body",
             "the place is missing here",
         ),
         (

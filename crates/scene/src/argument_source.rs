@@ -1,0 +1,61 @@
+//! Where points and directions of an element come from.
+
+use std::ops::Range;
+
+use joints::Argument;
+use joints::spec::{Shape, Spec};
+
+use crate::bearings::Bearings;
+use crate::between::JointMarkers;
+use crate::bodies::Bodies;
+use crate::space::SceneSpace;
+
+/// Where points and directions of an element come from.
+pub(crate) enum ArgumentSource<'a> {
+    /// All are in its own table.
+    Text,
+    /// From two markers.
+    Markers(JointMarkers<'a>),
+    /// From two joints, but for the pitch point and the line of action.
+    Bearings(Bearings<'a>),
+}
+
+impl ArgumentSource<'_> {
+    /// Whether the argument of a parameter is not in the table of the element.
+    pub(crate) fn gives(&self, spec: &Spec, parameter: usize) -> bool {
+        match (self, spec.parameters[parameter].shape) {
+            (Self::Text, _) => false,
+            (Self::Markers(_), shape) => matches!(
+                shape,
+                Shape::Point { .. } | Shape::Direction { .. } | Shape::Axes { .. }
+            ),
+            // The last point is the pitch point.
+            (Self::Bearings(_), Shape::Point { .. }) => {
+                let later = &spec.parameters[parameter + 1..];
+                later.iter().any(|p| matches!(p.shape, Shape::Point { .. }))
+            }
+            (Self::Bearings(_), shape) => matches!(shape, Shape::Axes { .. }),
+        }
+    }
+
+    /// The argument of such a parameter, if it could be read, and the place of the markers or
+    /// joints. Returns `None` if the argument is in the table.
+    pub(crate) fn argument<S: SceneSpace>(
+        &self,
+        spec: &Spec,
+        parameter: usize,
+        bodies: &Bodies<S>,
+    ) -> Option<(Option<Argument>, Range<usize>)> {
+        if !self.gives(spec, parameter) {
+            return None;
+        }
+        match self {
+            Self::Text => None,
+            Self::Markers(own) => {
+                let argument = own.argument(&spec.parameters[parameter], bodies);
+                Some((argument, own.span.clone()))
+            }
+            Self::Bearings(own) => Some((own.argument(spec, parameter), own.span.clone())),
+        }
+    }
+}

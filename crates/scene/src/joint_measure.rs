@@ -1,0 +1,186 @@
+//! Measures of joints: a drive prescribes one, a coupling relates two, a spring acts on an angle.
+
+use joints::Argument;
+use joints::spec::Measure;
+use model::coupling::Measured;
+use model::registry::{ConstraintDefinition, DriveDefinition};
+use model::{BodyRef, Force, Function, Law};
+
+use crate::dimension::Dimension;
+use crate::field::Field;
+use crate::joint_read::{JointKind, JointRead};
+use crate::mistake::Mistake;
+use crate::nearest::{list, nearest};
+use crate::space::SceneSpace;
+
+/// Why a table names a joint.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// To prescribe one of its measures, or a load along it.
+    Drive,
+    /// To relate one of its measures to another one.
+    Couple,
+    /// To spring one of its angles.
+    Spring,
+    /// To bear a wheel.
+    Bear,
+}
+
+impl Purpose {
+    /// What the table does, before the joint.
+    pub(crate) fn verb(self) -> &'static str {
+        match self {
+            Self::Drive => "drives",
+            Self::Couple => "couples",
+            Self::Spring => "springs",
+            Self::Bear => "is between wheels of",
+        }
+    }
+
+    /// Help for a joint without a suitable measure.
+    fn without_measure(self) -> &'static str {
+        match self {
+            Self::Drive => "joints of this type cannot be driven",
+            Self::Couple | Self::Bear => "joints of this type have no measure",
+            Self::Spring => "springs act on the angle of a revolute, cylindrical or screw joint",
+        }
+    }
+}
+
+/// The dimension of a measure of a definition, if its drive is registered.
+pub(crate) fn dimension<S: SceneSpace>(
+    definition: &ConstraintDefinition<S>,
+    measure: usize,
+) -> Option<Dimension> {
+    let functions = definition.drives.get(measure)?.spec.common.functions();
+    functions.last().map(|(_, unit)| unit.into())
+}
+
+/// A measure of a joint.
+pub(crate) struct JointMeasure<'j, 'r, S: SceneSpace> {
+    pub(crate) joint: &'j JointRead<'r, S>,
+    pub(crate) spec: &'static Measure,
+    pub(crate) dimension: Dimension,
+    drive: &'r DriveDefinition<S>,
+}
+
+impl<'r, S: SceneSpace> JointRead<'r, S> {
+    /// The measure of this name, or the first one that is suitable. Returns `None` and reports at
+    /// a field if there is none.
+    pub(crate) fn measure(
+        &self,
+        name: Option<&str>,
+        purpose: Purpose,
+        field: &Field,
+    ) -> Option<JointMeasure<'_, 'r, S>> {
+        let (findings, at) = (field.findings, field.span());
+        let subject = &field.subject;
+        let definition = match self.kind {
+            JointKind::Unknown => return None,
+            JointKind::Defined(definition) => definition,
+            JointKind::Coupling => {
+                findings.error(
+                    Mistake::UnknownMeasure,
+                    at,
+                    format!(
+                        "{subject}: `{}` is a coupling, which has no measure",
+                        self.name
+                    ),
+                    "name a measure of one of its joints",
+                );
+                return None;
+            }
+        };
+        let is_angle = |k| dimension(definition, k) == Some(Dimension::ANGLE);
+        let of_joint = definition.spec.measures.iter().enumerate();
+        let suitable = || {
+            let of_joint = of_joint.clone();
+            of_joint.filter(|(k, _)| purpose != Purpose::Spring || is_angle(*k))
+        };
+        let found = suitable().find(|(_, spec)| name.is_none_or(|name| spec.name == name));
+        let Some((k, spec)) = found else {
+            let what = match purpose {
+                Purpose::Spring => "angle",
+                _ => "measure",
+            };
+            let names = || suitable().map(|(_, spec)| spec.name);
+            let named = name.map_or_else(String::new, |name| format!(" `{name}`"));
+            findings.error_with_help(
+                Mistake::UnknownMeasure,
+                at,
+                format!(
+                    "{subject}: joint `{}` (`{}`) has no {what}{named}",
+                    self.name, definition.spec.common.scene_type
+                ),
+                match name.and_then(|name| nearest(name, names())) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("no such {what}"),
+                },
+                Some(match names().next() {
+                    Some(_) => format!("its {what}s are {}", list(names())),
+                    None => purpose.without_measure().to_owned(),
+                }),
+            );
+            return None;
+        };
+        let (drive, dimension) = (definition.drives.get(k), dimension(definition, k));
+        let Some((drive, dimension)) = drive.zip(dimension) else {
+            let of = spec.name;
+            findings.error(
+                Mistake::Registry,
+                at,
+                format!("{subject}: the definition of the drive of `{of}` is not registered"),
+                "no such definition",
+            );
+            return None;
+        };
+        Some(JointMeasure {
+            joint: self,
+            spec,
+            dimension,
+            drive,
+        })
+    }
+}
+
+impl<S: SceneSpace> JointMeasure<'_, '_, S> {
+    /// The bodies of the joint, and the arguments of a drive of the measure, if all could be read.
+    fn arguments(&self) -> Option<(Vec<BodyRef>, Vec<Argument>)> {
+        let complete = self.joint.complete.as_ref()?;
+        let mut arguments = complete.arguments.clone();
+        // That of its motion.
+        arguments.push(Argument::Absent);
+        Some((complete.joint.bodies.clone(), arguments))
+    }
+
+    /// Tolerance of the data of the joint (m).
+    pub(crate) fn tolerance(&self) -> Option<f64> {
+        self.joint.complete.as_ref()?.joint.tolerance
+    }
+
+    /// The bodies of the joint and the rows that prescribe the measure. The joint accepted these
+    /// arguments, so only a definition that is registered wrongly is reported.
+    pub(crate) fn rows(&self, field: &Field) -> Option<Measured<S>> {
+        let (bodies, arguments) = self.arguments()?;
+        let built = (self.drive.build)(&arguments);
+        let element = built.map_err(|error| refuse(field, &error));
+        Some((bodies, element.ok()?))
+    }
+
+    /// The force that follows a law along the measure.
+    pub(crate) fn force(&self, name: &str, law: Law, field: &Field) -> Option<Force<S>> {
+        let (bodies, arguments) = self.arguments()?;
+        let built = (self.drive.law)(&arguments, law);
+        let element = built.map_err(|error| refuse(field, &error));
+        Some(Force {
+            name: name.to_owned(),
+            bodies,
+            element: element.ok()?,
+            functions: vec![Function::time()],
+        })
+    }
+}
+
+fn refuse(field: &Field, error: &impl std::fmt::Display) {
+    field.error(Mistake::Registry, format!(": {error}"), "not possible");
+}

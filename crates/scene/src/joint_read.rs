@@ -1,0 +1,61 @@
+//! A joint of the text, as far as it could be read.
+
+use std::ops::Range;
+
+use joints::Argument;
+use model::Joint;
+use model::registry::ConstraintDefinition;
+
+use crate::source_map::Entry;
+use crate::space::SceneSpace;
+use crate::table::Table;
+
+/// A joint of the text, as far as it could be read.
+pub(crate) struct JointRead<'r, S: SceneSpace> {
+    pub(crate) name: String,
+    /// Place of its name.
+    pub(crate) span: Range<usize>,
+    pub(crate) kind: JointKind<'r, S>,
+    pub(crate) is_active: bool,
+    /// Present if all of it could be read.
+    pub(crate) complete: Option<CompleteJoint<S>>,
+}
+
+/// What a joint is.
+pub(crate) enum JointKind<'r, S: SceneSpace> {
+    /// Its type is missing or wrong.
+    Unknown,
+    /// It couples measures of other joints.
+    Coupling,
+    /// It has a definition.
+    Defined(&'r ConstraintDefinition<S>),
+}
+
+/// A joint with its place in the text and its arguments.
+pub(crate) struct CompleteJoint<S: SceneSpace> {
+    pub(crate) joint: Joint<S>,
+    pub(crate) entry: Entry,
+    /// Values of the parameters of its definition.
+    pub(crate) arguments: Vec<Argument>,
+}
+
+impl<'r, S: SceneSpace> JointRead<'r, S> {
+    /// A joint of which only the name and the kind are known.
+    pub(crate) fn new(name: &str, kind: JointKind<'r, S>, table: &Table) -> Self {
+        Self {
+            name: name.to_owned(),
+            span: table.span_of("name"),
+            kind,
+            is_active: true,
+            complete: None,
+        }
+    }
+
+    /// Its definition, if its type is known and has one.
+    pub(crate) fn definition(&self) -> Option<&'r ConstraintDefinition<S>> {
+        match self.kind {
+            JointKind::Defined(definition) => Some(definition),
+            JointKind::Unknown | JointKind::Coupling => None,
+        }
+    }
+}
