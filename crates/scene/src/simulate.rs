@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use dynamics::options::moved;
 use dynamics::{Method, MotionError, MotionOptions, RowChoice, Stabilisation};
 
 use crate::diagnostic::Diagnostic;
@@ -143,7 +142,6 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate
         options.max_steps = steps;
     }
     options.method = choose(&mut table, &METHODS, findings).unwrap_or_default();
-    refuse_moved(&mut table, findings);
     options.stabilisation = choose(&mut table, &STABILISATIONS, findings).unwrap_or_default();
     let drop = table.optional(&DROP).map(|field| rows(&field, findings));
     table.close(findings);
@@ -229,15 +227,6 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
     if let Some(found) = available.find(|found| (choice.name)(*found) == value) {
         return Some(found);
     }
-    if let Some(words) = moved(&field.key, value) {
-        findings.error(
-            Mistake::NotOfARun,
-            field.span(),
-            format!("{}: {words}", field.subject),
-            "not of a run",
-        );
-        return None;
-    }
     let help = did_you_mean(value, names());
     findings.error_with_help(
         Mistake::UnknownChoice,
@@ -247,31 +236,6 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
         help.or_else(|| Some(format!("available are {}", list(names())))),
     );
     None
-}
-
-/// Reports keys of former options, with their replacement: a run has one formulation, and
-/// Baumgarte's method has no gains.
-fn refuse_moved(table: &mut Table, findings: &mut Findings) {
-    for (key, of) in [
-        ("formulation", "formulation"),
-        ("baumgarte", "stabilisation"),
-    ] {
-        if !table.has(key) {
-            continue;
-        }
-        let Some(field) = table.optional(key) else {
-            continue;
-        };
-        let value = table.peek(key).unwrap_or(key);
-        let words = moved(of, value);
-        let words = words.unwrap_or_else(|| format!("a run has no key `{key}`"));
-        findings.error(
-            Mistake::NotOfARun,
-            field.span(),
-            format!("{}: {words}", field.subject),
-            "not of a run",
-        );
-    }
 }
 
 /// Rows to drop, counted from 1 in the file and from 0 in the result. Their existence is checked
