@@ -58,39 +58,6 @@ impl Method {
 /// monitored. This is its name in results; reactions that are not unique depend on it.
 pub const FORMULATION: &str = "kept-rows";
 
-/// Explains where a former option has moved, given the name of its key and its value. Returns
-/// `None` if it is a valid option.
-///
-/// ```
-/// let words = pfaff_dynamics::options::moved("method", "gbs").unwrap();
-/// assert_eq!(words, "method `gbs` is a comparator of the laboratory (`lab::work_precision`); a run takes `dop853` at tight tolerances");
-/// assert_eq!(pfaff_dynamics::options::moved("method", "dop853"), None);
-/// ```
-#[must_use]
-pub fn moved(key: &str, value: &str) -> Option<String> {
-    let instead = match (key, value) {
-        ("formulation", "null-space" | "proximal") => "a run keeps independent rows",
-        ("formulation", "minimum-norm") => {
-            "a run keeps independent rows; for reactions of least norm use `analyze --choose minimum-norm`"
-        }
-        ("formulation", FORMULATION) => {
-            return Some(format!(
-                "every run keeps independent rows (`{FORMULATION}`): leave the formulation out"
-            ));
-        }
-        ("method", "gbs") => "a run takes `dop853` at tight tolerances",
-        ("method", "generalized-alpha") => "a run takes `radau5` where forces are stiff",
-        ("stabilisation", "baumgarte") => "a run projects, or does nothing about drift (`none`)",
-        ("method", "hem4") => {
-            return Some("method `hem4` is gone: no motion needed it; use `dop853`".to_owned());
-        }
-        _ => return None,
-    };
-    Some(format!(
-        "{key} `{value}` is a comparator of the laboratory (`lab::work_precision`); {instead}"
-    ))
-}
-
 /// Method that prevents drift from the constraints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]

@@ -16,7 +16,6 @@
 //! | [`element`] | the kernels of constraints in several number types: rows and reaction |
 //! | [`constraint`] | a definition of constraints as a type, and all its kernels |
 //! | [`force`] | the same for forces |
-//! | [`former`] | scene types that there were |
 //! | [`visitor`] | all definitions, one after the other, with their types |
 //! | [`generated`] | one module for each file in `definitions/` |
 
@@ -25,7 +24,6 @@ pub mod constraint;
 pub mod definition;
 pub mod element;
 pub mod force;
-pub mod former;
 pub mod generated;
 pub mod plane;
 pub mod program;
@@ -42,7 +40,6 @@ pub use constraint::{Constraint, ConstraintKernels};
 pub use definition::Definition;
 pub use element::{Element, Reaction};
 pub use force::{Force, ForceElement};
-pub use former::{FORMER_TYPES, FormerType};
 pub use generated::*;
 pub use plane::{Direction, Line, Pose, Twist};
 pub use program::{Programs, Rows};

@@ -255,8 +255,9 @@ impl<'a> Set<'a> {
         let least = configuration.least_norm(&lambda, NormWeights::NEWTON_METRE);
         let least = least.ok();
         let without = self.eliminations.iter().map(|rows| {
-            let to_zero = rows.iter().map(|&i| -lambda[i]).collect();
-            firmly_solved(&z, rows, to_zero).map(|y| moved(&lambda, &z, &y))
+            let is_firm = rows.len() == z.ncols() && firmness(&z, rows) >= FIRM;
+            let found = is_firm.then(|| configuration.eliminated(&lambda, rows));
+            found.and_then(Result::ok)
         });
         let others = std::iter::once(least).chain(without);
         let others = others.map(|lambda| lambda.map(|lambda| self.wrenches(&maps, &lambda)));
@@ -400,34 +401,6 @@ fn firmness(z: &Matrix, rows: &[usize]) -> f64 {
     let qr = PivotedQr::of_columns(&block);
     let smallest = qr.r_diagonal().map(f64::abs).fold(f64::INFINITY, f64::min);
     smallest / z.max_abs().max(f64::MIN_POSITIVE)
-}
-
-/// y with `Z_D·y = x`, if the rows D determine y well.
-fn firmly_solved(z: &Matrix, rows: &[usize], mut x: Vec<f64>) -> Option<Vec<f64>> {
-    if rows.len() != z.ncols() || firmness(z, rows) < FIRM {
-        return None;
-    }
-    let qr = PivotedQr::of_columns(&z.select_rows(rows));
-    qr.q_transpose_mul(&mut x);
-    qr.solve_r(&mut x);
-    Some(unpermuted(&qr, &x))
-}
-
-fn unpermuted(qr: &PivotedQr, x: &[f64]) -> Vec<f64> {
-    let mut out = vec![0.0; x.len()];
-    for (&k, x) in qr.permutation().iter().zip(x) {
-        out[k] = *x;
-    }
-    out
-}
-
-/// `λ + Z·y`
-fn moved(lambda: &[f64], z: &Matrix, y: &[f64]) -> Vec<f64> {
-    lambda
-        .iter()
-        .zip(z.times(y))
-        .map(|(l, change)| l + change)
-        .collect()
 }
 
 /// `W·Z` with these rows of Z.

@@ -1,8 +1,8 @@
 //! Common parts of joints and forces: a type from the registry, bodies, a place and parameters. No
 //! joint and no force is known by name here.
 
+use joints::ArgumentError;
 use joints::spec::Spec;
-use joints::{ArgumentError, FORMER_TYPES};
 use model::registry::{ConstraintDefinition, ForceDefinition};
 use model::{BodyRef, ConstraintKernels, Definitions, ForceKernels, Registry};
 
@@ -142,25 +142,20 @@ pub(crate) fn scene_type<S: SceneSpace>(
     let (section, kind, others) = &types.other;
     let near = nearest(name, types.known.iter().copied());
     let elsewhere = space::of_type(S::NAME, types.all, name).filter(|_| !others.contains(&name));
-    let former = FORMER_TYPES.iter().find(|former| former.name == name);
-    let (label, help) = match (former, elsewhere, near) {
-        (Some(former), ..) => (
-            format!("this is part of `{}` now", former.now),
-            Some(former.advice.to_owned()),
-        ),
-        (None, Some(space), near) => {
+    let (label, help) = match (elsewhere, near) {
+        (Some(space), near) => {
             let near = near.filter(|near| meant(name) == Some(*near));
             (
                 belongs(name, space),
                 near.map(|near| format!("here it is `{near}`")),
             )
         }
-        (None, None, Some(near)) => (format!("did you mean `{near}`?"), None),
-        (None, None, None) if others.contains(&name) => (
+        (None, Some(near)) => (format!("did you mean `{near}`?"), None),
+        (None, None) if others.contains(&name) => (
             format!("`{name}` is a {kind}"),
             Some(format!("write it under `[[{section}]]`")),
         ),
-        (None, None, None) => match nearest(name, [section::DRIVE.name]) {
+        (None, None) => match nearest(name, [section::DRIVE.name]) {
             Some(drive) => (
                 format!("`{name}` is a {drive}"),
                 Some(

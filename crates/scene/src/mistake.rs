@@ -64,8 +64,6 @@ pub(crate) enum Mistake {
     Bearings,
     /// An output with too many rows.
     TooManyRows,
-    /// An option that is not one of a run.
-    NotOfARun,
     /// An entry that needs `format = 2`.
     NeedsFormat,
     /// Parameters that depend on each other.
@@ -120,7 +118,6 @@ impl Mistake {
             Self::Inactive => const { Code::new(140) },
             Self::ForeignMarker => const { Code::new(141) },
             Self::TooManyRows => const { Code::new(142) },
-            Self::NotOfARun => const { Code::new(143) },
             Self::NeedsFormat => const { Code::new(144) },
             Self::Circle => const { Code::new(145) },
             Self::UnknownInExpression => const { Code::new(146) },

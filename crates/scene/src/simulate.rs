@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use dynamics::options::moved;
 use dynamics::{Method, MotionError, MotionOptions, RowChoice, Stabilisation};
 
 use crate::diagnostic::Diagnostic;
@@ -137,7 +136,6 @@ pub(crate) fn read(mut table: Table) -> Option<Simulate> {
         options.max_steps = steps;
     }
     options.method = choose(&mut table, &METHODS).unwrap_or_default();
-    refuse_moved(&mut table);
     options.stabilisation = choose(&mut table, &STABILISATIONS).unwrap_or_default();
     let drop = table.optional(&DROP).map(|field| rows(&field));
     table.close();
@@ -222,10 +220,6 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>) -> Option<T> {
     if let Some(found) = available.find(|found| (choice.name)(*found) == value) {
         return Some(found);
     }
-    if let Some(words) = moved(&field.key, value) {
-        field.error(Mistake::NotOfARun, format!(": {words}"), "not of a run");
-        return None;
-    }
     let help = did_you_mean(value, names());
     field.error_with_help(
         Mistake::UnknownChoice,
@@ -234,26 +228,6 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>) -> Option<T> {
         help.or_else(|| Some(format!("available are {}", list(names())))),
     );
     None
-}
-
-/// Reports keys of former options, with their replacement: a run has one formulation, and
-/// Baumgarte's method has no gains.
-fn refuse_moved(table: &mut Table) {
-    for (key, of) in [
-        ("formulation", "formulation"),
-        ("baumgarte", "stabilisation"),
-    ] {
-        if !table.has(key) {
-            continue;
-        }
-        let Some(field) = table.optional(key) else {
-            continue;
-        };
-        let value = table.peek(key).unwrap_or(key);
-        let words = moved(of, value);
-        let words = words.unwrap_or_else(|| format!("a run has no key `{key}`"));
-        field.error(Mistake::NotOfARun, format!(": {words}"), "not of a run");
-    }
 }
 
 /// Rows to drop, counted from 1 in the file and from 0 in the result. Their existence is checked

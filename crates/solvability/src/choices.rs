@@ -314,7 +314,7 @@ impl Configuration<'_> {
         let lambda = match choice {
             Choice::MinimumNorm(weights) => self.least_norm(lambda_0, *weights)?,
             Choice::Compliance(joints) => self.choosing().elastic(lambda_0, joints)?,
-            Choice::Elimination(rows) => self.without(lambda_0, rows)?,
+            Choice::Elimination(rows) => self.eliminated(lambda_0, rows)?,
         };
         let mut distribution = Distribution {
             label,
@@ -384,8 +384,11 @@ impl Configuration<'_> {
         }
     }
 
-    /// The solution that is exactly zero in these rows.
-    fn without(&self, lambda_0: &[f64], rows: &[usize]) -> Result<Vec<f64>, ChoiceError> {
+    /// The solution that is exactly zero in these rows (from 0).
+    ///
+    /// # Errors
+    /// [`ChoiceError::Rows`]: the other rows are not independent, or not enough.
+    pub fn eliminated(&self, lambda_0: &[f64], rows: &[usize]) -> Result<Vec<f64>, ChoiceError> {
         let c = dimensionless(
             &self.reactions.mechanism,
             &self.reactions.s,

@@ -54,6 +54,7 @@ pub mod minimax;
 pub mod near;
 pub mod outcome;
 pub mod pose;
+pub mod precisions;
 pub mod ratio;
 pub mod rounded;
 pub mod tally;

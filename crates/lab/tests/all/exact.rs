@@ -9,8 +9,8 @@ use lab::fuzz::exact::expected::Verdict;
 use lab::fuzz::exact::families::Family;
 use lab::fuzz::exact::findings::{Kind, list};
 use lab::fuzz::exact::pose::{Posed, Writing};
+use lab::fuzz::exact::precisions;
 use lab::fuzz::exact::ratio::Ratio;
-use lab::fuzz::exact::rounded;
 use lab::fuzz::exact::tally::{Suite, Tally};
 use lab::fuzz::exact::truth::Truth;
 use lab::fuzz::exact::within::Meant;
@@ -291,7 +291,7 @@ fn of_drawings(suite: Suite, from: u64, drawings: u64) -> Tally {
 fn with_few_digits_no_answer_is_wrong() {
     let tally = of_drawings(Suite::RoundedInPlane, 0, DRAWINGS);
     assert_eq!(tally.wrong(), 0, "\n{}", tally.describe());
-    let all = tally.sum(|_, way| way == rounded::DIGITS.len() - 1);
+    let all = tally.sum(|_, way| way == precisions::DIGITS.len() - 1);
     assert_eq!(
         (all.right, all.not.len()),
         (40, 0),

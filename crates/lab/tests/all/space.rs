@@ -7,8 +7,8 @@ use std::fs;
 use lab::fuzz::exact::answer::answer;
 use lab::fuzz::exact::expected::Elsewhere;
 use lab::fuzz::exact::findings::Kind;
-use lab::fuzz::exact::rounded;
 use lab::fuzz::exact::tally::{Suite, Tally};
+use lab::fuzz::exact::{precisions, rounded};
 use lab::fuzz::space::drawing::{self, Drawing, GROUND};
 use lab::fuzz::space::examine::{compared, examine};
 use lab::fuzz::space::text::{Precision, text, text_within};
@@ -86,7 +86,7 @@ fn couples_have_directions_within_a_tolerance() {
 fn bricard_with_few_digits_is_right_or_undecided() {
     for (seed, drawn, digits) in [(2, 209, 6), (3, 11, 7)] {
         let outcomes = rounded::outcomes(Suite::RoundedInSpace, seed, drawn);
-        for (outcome, known) in outcomes.iter().zip(rounded::DIGITS) {
+        for (outcome, known) in outcomes.iter().zip(precisions::DIGITS) {
             let worst = outcome.worst();
             let is_allowed = match worst {
                 Some(kind) => !kind.is_wrong() && known < digits,

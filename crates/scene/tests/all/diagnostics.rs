@@ -497,36 +497,15 @@ fn runs_starts_and_groups() {
         ),
         (
             "t_end = 2.0",
-            "t_end = 2.0\nmethod = «\"gbs\"»",
-            "`[simulate]`: method `gbs` is a comparator of the laboratory (`lab::work_precision`); a run takes `dop853` at tight tolerances",
-            "not of a run",
-        ),
-        (
-            "t_end = 2.0",
-            "t_end = 2.0\nformulation = «\"all\"»",
-            "`[simulate]`: a run has no key `formulation`",
-            "not of a run",
-        ),
-        (
-            "t_end = 2.0",
-            "t_end = 2.0\nformulation = «\"minimum-norm\"»",
-            "`[simulate]`: formulation `minimum-norm` is a comparator of the laboratory (`lab::work_precision`); a run keeps independent rows; for \
-             reactions of least norm use `analyze --choose minimum-norm`",
-            "not of a run",
+            "t_end = 2.0\n«formulation» = \"null-space\"",
+            "`[simulate]` has no key `formulation`",
+            "unknown key",
         ),
         (
             "t_end = 2.0",
             "t_end = 2.0\nstabilisation = «\"baumgarte\"»",
-            "`[simulate]`: stabilisation `baumgarte` is a comparator of the laboratory (`lab::work_precision`); a run projects, or does nothing \
-             about drift (`none`)",
-            "not of a run",
-        ),
-        (
-            "t_end = 2.0",
-            "t_end = 2.0\nbaumgarte = «[5.0, 5.0]»",
-            "`[simulate]`: stabilisation `baumgarte` is a comparator of the laboratory (`lab::work_precision`); a run projects, or does nothing \
-             about drift (`none`)",
-            "not of a run",
+            "`[simulate]`: `stabilisation` `baumgarte` is unknown",
+            "no such choice",
         ),
         (
             "drop = [1]",

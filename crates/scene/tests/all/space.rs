@@ -557,12 +557,6 @@ fn the_other_space_is_named() {
                 "may not be negative",
             ),
             (
-                "type = \"wheel\"",
-                "type = «\"wheel-slip\"»",
-                "joint `W` has the unknown type `wheel-slip`",
-                "this is part of `wheel` now",
-            ),
-            (
                 "at = [0.0, 0.0, 0.0]",
                 "at = «[0.0, 0.0]»",
                 "joint `J`: `at` must be a global point [x, y, z], found a list of 2 values",

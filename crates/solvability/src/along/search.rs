@@ -1,6 +1,9 @@
 //! Searches in a function of time: for a change of sign, for the time at which it falls below zero,
 //! and for a minimum. The function may return an error. They find singular instants along a given
 //! motion and within a step of a simulation.
+//!
+//! Events of an integrator have a search of their own, in `integrators`: that crate depends on no
+//! other crate, and its search returns the end of the bracket beyond the event.
 
 use crate::limits::{EDGE, FALL, NARROWING, RESOLUTION, SEARCH_ITERATIONS};
 

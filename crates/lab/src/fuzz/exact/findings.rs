@@ -94,20 +94,6 @@ impl Findings {
     }
 }
 
-/// Numbers of dependencies must be correct to this fraction of the largest, because they are
-/// computed in double precision.
-const ROUNDING: f64 = 1e-9;
-
-/// The same for each metre by which a scene was moved: coordinates are accurate to 1e-16 of that,
-/// and small angles increase the rounding errors by a factor of up to ten thousand.
-const ROUNDING_PER_METRE: f64 = 1e-12;
-
-/// The tolerance for numbers of dependencies of a scene at a distance (m) from the origin.
-#[must_use]
-pub fn rounding_at(distance: f64) -> f64 {
-    ROUNDING.max(ROUNDING_PER_METRE * distance)
-}
-
 /// The entries of an array.
 #[must_use]
 pub fn list(value: &Value) -> &[Value] {

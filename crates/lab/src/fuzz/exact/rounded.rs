@@ -11,18 +11,13 @@ use super::families::Family;
 use super::families::slender::Slender;
 use super::outcome::{Judged, Outcome, judged};
 use super::pose::{Posed, Writing};
+use super::precisions::{DIGITS, PARTS};
 use super::ratio::Ratio;
 use super::tally::Suite;
 use super::text::text_within;
 use super::within::Meant;
 use crate::fuzz::space;
 use crate::fuzz::space::text::Precision;
-
-/// Numbers of significant digits. With the last one no tolerance is stated.
-pub const DIGITS: [usize; 14] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16];
-
-/// Tolerances for drawings near a lower rank, as fractions of τ*/3.
-pub const PARTS: [f64; 6] = [0.99, 0.5, 0.1, 1e-2, 1e-4, 1e-7];
 
 /// Gravity (m/s²), not parallel to an axis.
 const GRAVITY: [f64; 3] = [3.0, -9.0, 0.0];

@@ -12,7 +12,7 @@ use super::examine::examine;
 use super::findings::Kind;
 use super::outcome::{Judged, Outcome, judged};
 use super::pose::Writing;
-use super::{answer, rounded, scene, text};
+use super::{answer, precisions, rounded, scene, text};
 use crate::fuzz::space;
 
 /// Number of scenes that are listed for each kind of finding.
@@ -55,8 +55,8 @@ impl Suite {
     pub fn ways(self) -> usize {
         match self {
             Self::Plane | Self::Space | Self::Lifted => Writing::ALL.len(),
-            Self::RoundedInPlane | Self::RoundedInSpace => rounded::DIGITS.len(),
-            Self::FullRank => rounded::PARTS.len(),
+            Self::RoundedInPlane | Self::RoundedInSpace => precisions::DIGITS.len(),
+            Self::FullRank => precisions::PARTS.len(),
         }
     }
 
@@ -66,9 +66,9 @@ impl Suite {
         match self {
             Self::Plane | Self::Space | Self::Lifted => Writing::ALL[way].name().to_owned(),
             Self::RoundedInPlane | Self::RoundedInSpace => {
-                format!("{} digits", rounded::DIGITS[way])
+                format!("{} digits", precisions::DIGITS[way])
             }
-            Self::FullRank => format!("{} τ*/3", rounded::PARTS[way]),
+            Self::FullRank => format!("{} τ*/3", precisions::PARTS[way]),
         }
     }
 
@@ -76,7 +76,7 @@ impl Suite {
     fn has_tolerance(self, way: usize) -> bool {
         match self {
             Self::Plane | Self::Space | Self::Lifted => false,
-            Self::RoundedInPlane | Self::RoundedInSpace => way + 1 < rounded::DIGITS.len(),
+            Self::RoundedInPlane | Self::RoundedInSpace => way + 1 < precisions::DIGITS.len(),
             Self::FullRank => true,
         }
     }

@@ -8,10 +8,22 @@ use exact::Exact;
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
 
-use super::findings::rounding_at;
-use super::wrench::{Element, Owner, Row, Side, Wrench, Wrenches};
+use super::wrench::{Owner, Side, Wrench, Wrenches};
 use crate::fuzz::space::ratio::{Ratio, quotient, whole_multiples};
 use crate::fuzz::space::vector::Vector;
+
+/// Numbers of dependencies must be correct to this fraction of the largest, because they are
+/// computed in double precision.
+const ROUNDING: f64 = 1e-9;
+
+/// The same for each metre by which a scene was moved: coordinates are accurate to 1e-16 of that,
+/// and small angles increase the rounding errors by a factor of up to ten thousand.
+const ROUNDING_PER_METRE: f64 = 1e-12;
+
+/// The tolerance for numbers of dependencies of a scene at a distance (m) from the origin.
+fn rounding_at(distance: f64) -> f64 {
+    ROUNDING.max(ROUNDING_PER_METRE * distance)
+}
 
 /// The rows of a mechanism and the results for them.
 #[derive(Clone)]
@@ -72,7 +84,7 @@ impl Truth {
         let wrenches = wrenches.into();
         let (mut first, mut factors, mut whole) = (Vec::new(), Vec::new(), Vec::new());
         for row in &wrenches.rows {
-            let element = element(&wrenches.elements, row.owner);
+            let element = wrenches.element(row.owner);
             let numbers = row.loads.iter().flat_map(|(_, w)| w.numbers());
             let (numbers, factor) = whole_multiples(&numbers.collect::<Vec<_>>());
             let loads = || {
@@ -109,32 +121,6 @@ impl Truth {
     #[must_use]
     pub fn mobility(&self) -> usize {
         self.velocities.len() * self.bodies - self.rank()
-    }
-
-    /// The joint or drive of an owner.
-    #[must_use]
-    pub fn element(&self, owner: Owner) -> &Element {
-        element(&self.elements, owner)
-    }
-
-    /// The name of the joint or drive of a row.
-    #[must_use]
-    pub fn name_of(&self, row: usize) -> &str {
-        &self.element(self.rows[row].owner).name
-    }
-
-    /// The indices of rows with a property.
-    pub fn rows_where(&self, wanted: impl Fn(&Row) -> bool) -> Vec<usize> {
-        let rows = self.rows.iter().enumerate();
-        rows.filter(|(_, row)| wanted(row))
-            .map(|(i, _)| i)
-            .collect()
-    }
-
-    /// The rows of a joint or drive.
-    #[must_use]
-    pub fn rows_of(&self, owner: Owner) -> Vec<usize> {
-        self.rows_where(|row| row.owner == owner)
     }
 
     /// The rank of some rows.
@@ -393,11 +379,6 @@ impl Truth {
         let own = rows.iter().map(|&i| self.first[i].to_vec());
         Exact::of_whole(own.collect()).rank()
     }
-}
-
-fn element(elements: &[Element], owner: Owner) -> &Element {
-    let mut own = elements.iter().filter(|e| e.owner == owner);
-    own.next().expect("a row belongs to an element")
 }
 
 /// The sum of the loads on a side.

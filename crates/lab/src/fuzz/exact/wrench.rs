@@ -193,6 +193,32 @@ pub struct Wrenches {
 }
 
 impl Wrenches {
+    /// The joint or drive of an owner.
+    #[must_use]
+    pub fn element(&self, owner: Owner) -> &Element {
+        element(&self.elements, owner)
+    }
+
+    /// The name of the joint or drive of a row.
+    #[must_use]
+    pub fn name_of(&self, row: usize) -> &str {
+        &self.element(self.rows[row].owner).name
+    }
+
+    /// The indices of rows with a property.
+    pub fn rows_where(&self, wanted: impl Fn(&Row) -> bool) -> Vec<usize> {
+        let rows = self.rows.iter().enumerate();
+        rows.filter(|(_, row)| wanted(row))
+            .map(|(i, _)| i)
+            .collect()
+    }
+
+    /// The rows of a joint or drive.
+    #[must_use]
+    pub fn rows_of(&self, owner: Owner) -> Vec<usize> {
+        self.rows_where(|row| row.owner == owner)
+    }
+
     /// The same with rows in the order of the program; those of each kind stay in their order.
     #[must_use]
     pub fn in_order(mut self) -> Self {
@@ -207,3 +233,8 @@ impl Wrenches {
 
 /// Names of the components of a wrench in space.
 pub const AXES: [&str; 6] = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
+
+fn element(elements: &[Element], owner: Owner) -> &Element {
+    let mut own = elements.iter().filter(|e| e.owner == owner);
+    own.next().expect("a row belongs to an element")
+}

@@ -16,7 +16,7 @@ use crate::fuzz::exact::distance::{BEYOND_DOUBT, Distance, Left};
 use crate::fuzz::exact::examine::{self, ranks_and_reactions, reactions};
 use crate::fuzz::exact::expected::{Elsewhere, Expected, Verdict};
 use crate::fuzz::exact::outcome::{Judged, Outcome, judged};
-use crate::fuzz::exact::rounded::DIGITS;
+use crate::fuzz::exact::precisions::DIGITS;
 use crate::fuzz::exact::truth::Truth;
 use crate::fuzz::exact::wrench::Wrench;
 
