@@ -261,7 +261,8 @@ pub(crate) const FEW_ROUNDINGS: f64 = 1.0;
 
 /// Pivots below this share are weak.
 /// Unit: share of pivots. Less: dropped rows miss near singular configurations. More: a
-/// correction more for each step. Test: none.
+/// correction more for each step. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const WEAK: f64 = 0.5;
 
 /// Size of what is added up where an independent rotation is read of a quaternion: four products of
@@ -535,7 +536,8 @@ pub(crate) const RISES: f64 = 0.5;
 
 /// Between two places a pivot falls at most by so many times what it changes by between any two
 /// neighbouring ones.
-/// Unit: 1. Less: passages are not found. More: time. Test: none.
+/// Unit: 1. Less: passages are not found. More: time. Test:
+/// `a_pivot_that_vanishes_as_a_root_is_searched_for`.
 pub(crate) const STEEPER: f64 = 2.0;
 
 /// States of a step by which a passage is judged.
@@ -689,7 +691,8 @@ pub(crate) const TAKES_PART: f64 = 0.1;
 
 impl MotionOptions {
     /// Output steps of a run where none is given.
-    /// Unit: steps. Less: pictures have corners. More: files are large. Test: none.
+    /// Unit: steps. Less: pictures have corners. More: files are large. Test:
+    /// `a_turn_is_as_round_as_a_picture_shows`.
     pub const OUTPUT_STEPS: f64 = 200.0;
 
     /// Relative tolerance where none is given.
@@ -726,11 +729,15 @@ mod tests {
     /// Each number of a row is less than the next, or a state would be two things at once.
     #[test]
     fn limits_stand_in_their_order() {
-        let rows: [(&str, &[f64]); 10] = [
+        let rows: [(&str, &[f64]); 11] = [
             ("roundings", &[FEW_ROUNDINGS, ROUNDINGS, STALLED_ROUNDINGS]),
             (
                 "rows come back where others are not lost",
                 &[PIVOT_LOSS, PIVOT_RECOVERY],
+            ),
+            (
+                "rows are corrected further before others replace them",
+                &[PIVOT_LOSS, PIVOT_RECOVERY, WEAK, 1.0],
             ),
             ("code comes back where it is not left", &[LEAVE, RETURN]),
             (

@@ -11,6 +11,9 @@ mod label;
 mod minimise;
 mod multipliers;
 
+#[cfg(test)]
+mod tests;
+
 use std::sync::Arc;
 
 use crate::limits::VALUE_ROUNDINGS;

@@ -112,7 +112,7 @@ pub(crate) const CURVED: f64 = 100.0;
 
 /// Positions on a walk are met to this share of the size.
 /// Unit: share of the size. Less: walks do not arrive. More: poses are off the constraints. Test:
-/// none.
+/// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const WALKED: f64 = 1e-12;
 
 /// A weakest entry above this share of the size of C belongs to no change of data below a
@@ -566,7 +566,7 @@ pub(crate) const TRIALS: usize = 2_000_000;
 
 /// A number is known to so many roundings of the largest multiplier, each measured by its row.
 /// Unit: roundings of the largest multiplier. Less: rounding is shown. More: digits are not. Test:
-/// none.
+/// `what_two_roundings_leave_is_zero_and_more_is_not`.
 pub(crate) const VALUE_ROUNDINGS: f64 = 4.0;
 
 /// Redundant accelerations agree to this share of their terms: that of rounding in velocities on
@@ -748,7 +748,7 @@ pub(crate) const SHARE_OF_PIVOT: f64 = 0.1;
 /// A component of a self-stress is zero below this share of its largest one: rounding of the
 /// dependence, drawn or said.
 /// Unit: share of the largest number. Less: rounding is shown. More: small numbers are not. Test:
-/// none.
+/// `far_axes_and_translations_are_told_apart`.
 pub(crate) const VISIBLE: f64 = 1e-9;
 
 /// Two bodies move as one, and a joint stands at a point, to this share of the size of the
@@ -775,7 +775,7 @@ pub(crate) const NAMED_BODIES: usize = 6;
 
 /// Names that tell which part it is.
 /// Unit: names. Less: one does not know which part it is. More: sentences nobody reads. Test:
-/// none.
+/// `a_part_is_named_by_its_first_three_joints`.
 pub(crate) const FIRST_NAMED: usize = 3;
 
 /// Rows that a label names; of more it names the first few.
@@ -784,5 +784,6 @@ pub(crate) const FIRST_NAMED: usize = 3;
 pub(crate) const NAMED_ROWS: usize = 12;
 
 /// More rows than this are not listed in a sentence.
-/// Unit: rows. Less: rows are counted only. More: sentences nobody reads. Test: none.
+/// Unit: rows. Less: rows are counted only. More: sentences nobody reads. Test:
+/// `every_answer_is_that_of_its_session`.
 pub(crate) const TELLABLE: usize = 8;

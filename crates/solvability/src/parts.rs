@@ -431,6 +431,21 @@ pub(crate) fn open_parts<'m>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sketch::{Kind, door};
+    use joints::space3::Pose;
+
+    #[test]
+    fn a_part_is_named_by_its_first_three_joints() {
+        for (hinges, name) in [
+            (2, "`H0` and `H1`"),
+            (3, "`H0`, `H1` and `H2`"),
+            (4, "`H0`, `H1`, `H2` and 1 more"),
+            (9, "`H0`, `H1`, `H2` and 6 more"),
+        ] {
+            let (mechanism, ..) = door(&vec![Kind::Revolute; hinges], Pose::GROUND).judged();
+            assert_eq!(Extent::Whole.name(&mechanism), name);
+        }
+    }
 
     /// The result equals that of a search through the whole list: in its order, and repeated if it
     /// repeats.

@@ -65,3 +65,12 @@ fn the_ends_of_the_ranges_are_right() {
     }
     assert_eq!(said(|o| (o.t_end, o.output_step) = (0.0, 0.0)), Ok(()));
 }
+
+/// A turn in a picture of a thousand pixels, drawn by chords between the rows of a run, is round to
+/// a fifth of a pixel, and no finer than a tenth of that: `1 − cos(π/n)` of the radius.
+#[test]
+fn a_turn_is_as_round_as_a_picture_shows() {
+    let rows = 1.0 / MotionOptions::to(1.0).output_step;
+    let off = 500.0 * (1.0 - (std::f64::consts::PI / rows).cos());
+    assert!((0.02..0.2).contains(&off), "{rows} rows: {off} pixels");
+}

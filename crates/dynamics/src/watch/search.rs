@@ -201,3 +201,28 @@ impl<'m> Search<'m> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A pivot that falls to zero as a root does between two places is steeper there than any
+    /// change between places shows: by 1/(√3 − 1) if it vanishes in the middle.
+    #[test]
+    fn a_pivot_that_vanishes_as_a_root_is_searched_for() {
+        for middle in 0..=10 {
+            let zero = 0.5 * PLACES as f64 + 0.1 * f64::from(middle);
+            let pivots = (0..=PLACES).map(|k| (k as f64 - zero).abs().sqrt());
+            let pivots: Vec<f64> = pivots.collect();
+            let least = pivots.iter().copied().fold(f64::INFINITY, f64::min);
+            assert!(least <= STEEPER * steepest(&pivots), "{zero}: {pivots:?}");
+        }
+    }
+
+    /// A pivot that changes by a sixth of its least value between places stays away from zero.
+    #[test]
+    fn a_pivot_that_hardly_changes_is_not_searched_for() {
+        let pivots = [4.0, 3.5, 3.0, 3.5, 4.0].map(|x: f64| x / 3.0);
+        assert!(1.0 - STEEPER * steepest(&pivots) > 0.5);
+    }
+}
