@@ -623,10 +623,11 @@ pub(crate) const SAME_WAY: f64 = 0.999_999;
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOWED_DATA: usize = 64;
 
-/// The same as a product with rows and the square of columns: a step factors all of them.
+/// The same as a product with rows and the square of columns, which each correction of each step
+/// factors on both sides, at most.
 /// Unit: operations. Less: large parts near a limit are told to first order. More: time. Test:
 /// none, work only.
-pub(crate) const FOLLOWED_WORK: usize = 100_000_000;
+pub(crate) const FOLLOWED_WORK: usize = 1_000_000_000;
 
 /// Steps in which bodies follow a displaced datum.
 /// Unit: steps. Less: they leave their branch. More: time. Test:

@@ -2,8 +2,8 @@
 //! of reactions with respect to all data.
 
 use crate::limits::{
-    ALIKE, FIRST_ORDER, FOLLOWED_DATA, FOLLOWED_WORK, FRAGILE, LOAD_ROUNDING, MOVED, NEAR_LIMIT,
-    PIECE, SAME_EFFECT, SAME_WAY,
+    ALIKE, FIRST_ORDER, FOLLOW_CORRECTIONS, FOLLOW_STEPS, FOLLOWED_DATA, FOLLOWED_WORK, FRAGILE,
+    LOAD_ROUNDING, MOVED, NEAR_LIMIT, PIECE, SAME_EFFECT, SAME_WAY,
 };
 use std::borrow::Cow;
 
@@ -223,7 +223,10 @@ impl<'a> Instant<'a> {
             }
         }
         let n = self.mechanism.layout().n_v;
-        all.truncate(FOLLOWED_DATA.min(FOLLOWED_WORK / (1 + self.kept.len() * n * n)));
+        let corrections = 2 * FOLLOW_STEPS * FOLLOW_CORRECTIONS;
+        let factors = [corrections, self.kept.len().max(1), n, n];
+        let work = factors.into_iter().fold(1, usize::saturating_mul);
+        all.truncate(FOLLOWED_DATA.min(FOLLOWED_WORK / work.max(1)));
         let stored = self.mechanism.data().numbers();
         let values: Vec<f64> = changes.iter().map(|change| change.value).collect();
         for own in &all {
