@@ -4,16 +4,13 @@ use std::io;
 use std::path::Path;
 
 use pfaff::model::{Registry, Tolerance};
-use pfaff::question::Progress::Stage;
 use pfaff::scene::{KeyError, Template, nearest};
 use pfaff::source;
 use pfaff::start::Start;
-use pfaff::{AssembledScene, RunOptions, Study, StudyError};
 
 use crate::args::{Known, Settings};
 use crate::console::Console;
-use crate::output::{Failure, Refusal};
-use crate::progress::Progress;
+use crate::output::Failure;
 use crate::resources::Resources;
 
 pub use pfaff::source::LARGEST;
@@ -59,39 +56,6 @@ impl<'r> Source<'r> {
         let mut start = Start::new(self.name, self.text, self.registry, budget);
         start.tolerance = self.tolerance;
         start
-    }
-
-    /// Reads and assembles the scene, if the limits of the machine allow it.
-    pub(crate) fn study(
-        &self,
-        overrides: &RunOptions,
-        resources: Resources,
-        console: &Console<'_>,
-    ) -> Result<Study, Failure> {
-        resources.apply(console);
-        let assembled = resources.assembled(self)?;
-        let study = self.prepare(assembled, overrides);
-        study.map_err(|e| self.failure(e))
-    }
-
-    /// Assembles a scene that was read from this text.
-    pub(crate) fn prepare(
-        &self,
-        assembled: AssembledScene,
-        overrides: &RunOptions,
-    ) -> Result<Study, StudyError> {
-        let shown = Progress::default();
-        shown.show(Stage("assembling and choosing rows", self.text.len()));
-        assembled.prepare(overrides)
-    }
-
-    /// An error with its places in this text.
-    pub(crate) fn failure(&self, error: StudyError) -> Failure {
-        if let StudyError::NoEnd = error {
-            let message = format!("{error}: write one after `--t-end`, or after `--along`");
-            return Failure::input(message).coded(error.code());
-        }
-        Refusal::of((&self.name, &self.text), error).into()
     }
 }
 

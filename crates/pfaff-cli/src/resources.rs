@@ -5,14 +5,10 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
-use pfaff::AssembledScene;
 use pfaff::memory::{Budget, Bytes};
-use pfaff::question::Progress::Stage;
 
 use crate::console::Console;
-use crate::input::Source;
 use crate::output::Failure;
-use crate::progress::Progress;
 
 #[derive(Args, Clone, Copy, Default)]
 pub(crate) struct Resources {
@@ -44,18 +40,6 @@ impl Resources {
     /// Sets the number of threads for all parallel computations.
     pub(crate) fn apply(self, console: &Console<'_>) {
         start_threads(self.threads, console);
-    }
-
-    /// Reads the scene and builds its mechanism, if the memory suffices for the mechanism and its
-    /// verdicts.
-    pub(crate) fn assembled(self, source: &Source) -> Result<AssembledScene, Failure> {
-        let shown = Progress::default();
-        shown.show(Stage("reading and building", source.text.len()));
-        let of = (source.name.as_str(), source.text.as_str());
-        Ok(self
-            .memory
-            .budget()
-            .assembled(of, source.registry, source.tolerance)?)
     }
 }
 

@@ -17,7 +17,7 @@ use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, Refusal, Shortfall, beside, count, json_or, wrapped};
-use crate::resources::start_threads;
+use crate::resources::{Resources, start_threads};
 use pfaff::questions::simulate::TRUSTED_BALANCE;
 
 pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
@@ -109,7 +109,7 @@ enum Ending {
 pub(crate) fn read<'s>(source: &'s Source, axes: Vec<Axis>) -> Result<Sweep<'s>, Failure> {
     let sweep = Sweep::read(&source.name, &source.text, source.registry, axes);
     sweep.map_err(|e| match e {
-        SweepError::Study(e) => source.failure(e),
+        SweepError::Study(e) => source.clone().start(Resources::default()).refusal(e).into(),
         other => Refusal::from(other).into(),
     })
 }

@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use pfaff::StudyError;
+use pfaff::question::Control;
 use pfaff::report::{
     Family, OutputDirectory, OutputFile, TableError, WorkPrecisionDocument, WorkPrecisionRow,
     WorkPrecisionScene, WorkPrecisionTable, figures, work_precision_page,
 };
 use pfaff::work_precision::{Plan, Rival, Subject, overview};
+use pfaff::{RunOptions, StudyError};
 
 use crate::args::{Settings, WorkPrecision};
 use crate::console::Console;
@@ -16,6 +17,7 @@ use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, Shortfall, beside, directory, json_or, wrapped};
 use crate::picture::{can_paint, unpainted};
+use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::resources::{Resources, start_threads};
 
@@ -59,8 +61,14 @@ pub fn subject(path: &Path, console: &Console<'_>) -> Result<Subject, Failure> {
 /// The scene of a file, with other numbers in it.
 fn read(path: &Path, settings: &Settings, console: &Console<'_>) -> Result<Subject, Failure> {
     let source = Source::read(path, settings, console)?;
-    let study = source.study(&pfaff::RunOptions::default(), Resources::default(), console)?;
-    Subject::of_study(study).map_err(|e| source.failure(e))
+    let start = source.start(Resources::default());
+    let shown = Progress::default();
+    let control = Control {
+        progress: &|progress| shown.show(progress),
+        ..Control::quiet()
+    };
+    let study = start.prepared(&RunOptions::default(), &control)?;
+    Ok(Subject::of_study(study).map_err(|e| start.refusal(e))?)
 }
 
 /// The files of a comparison; the last one is written if it is requested.

@@ -55,6 +55,10 @@ impl<'r> Start<'r> {
     /// An error with its places in the text.
     #[must_use]
     pub fn refusal(&self, error: StudyError) -> Refusal {
+        if let StudyError::NoEnd = error {
+            let message = format!("{error}: write one after `--t-end`, or after `--along`");
+            return Refusal::input(message).coded(error.code());
+        }
         Refusal::of((&self.name, &self.text), error)
     }
 

@@ -238,9 +238,7 @@ fn judge(
     };
     let own = study.options.as_ref().map(|options| options.t_end);
     let Some(end) = t_end.or(own) else {
-        let e = StudyError::NoEnd;
-        let message = format!("{e}: write one after `--t-end`, or after `--along`");
-        return Err(Refusal::input(message).coded(e.code()));
+        return Err(of.refusal(StudyError::NoEnd));
     };
     if !(end.is_finite() && end > 0.0) {
         let message = format!("--along goes to {end}, need a time > 0");

@@ -59,9 +59,7 @@ impl Question for Simulate {
         let memory = study.memory(of.text.len()).map_err(|e| of.refusal(e))?;
         of.budget.allow(memory, "this run")?;
         let Some(options) = &study.options else {
-            let e = StudyError::NoEnd;
-            let message = format!("{e}: write one after `--t-end`, or after `--along`");
-            return Err(Refusal::input(message).coded(e.code()));
+            return Err(of.refusal(StudyError::NoEnd));
         };
         let t_end = options.t_end;
         let scene = study.scene.name().to_owned();
