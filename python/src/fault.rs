@@ -71,7 +71,31 @@ pub(crate) fn exception(py: Python<'_>, refusal: &Refusal) -> PyErr {
         Refusal::Stopped(..) => "ComputationError",
     };
     let document = json(&refusal.document()).unwrap_or_default();
-    made(py, class, refusal.words(false).trim_end(), &document)
+    let words = with_keywords(refusal.words(false).trim_end());
+    made(py, class, &words, &with_keywords(&document))
+}
+
+/// A text in which options of the command, as `--at-time 2`, are keywords of Python, as `at_time=2`.
+fn with_keywords(text: &str) -> String {
+    let mut words = text.split("--");
+    let mut told = words.next().unwrap_or_default().to_owned();
+    for rest in words {
+        let end = rest.find(|c: char| !(c.is_ascii_lowercase() || c == '-'));
+        let (name, rest) = rest.split_at(end.unwrap_or(rest.len()));
+        let is_option = name.starts_with(|c: char| c.is_ascii_lowercase())
+            && told.ends_with([' ', '`', '"', '\n']);
+        let is_quoted = told.ends_with('`');
+        if is_option {
+            told.push_str(&name.replace('-', "_"));
+        } else {
+            told.extend(["--", name]);
+        }
+        match rest.strip_prefix(' ') {
+            Some(value) if is_option && is_quoted => told.extend(["=", value]),
+            _ => told.push_str(rest),
+        }
+    }
+    told
 }
 
 /// The exception of a panic.

@@ -9,28 +9,22 @@
 //! | `functions` | functions of Python as laws of drives and as forces on bodies |
 //! | `scene` | a text of a scene, and what is computed of it |
 //! | `options` | words and numbers from Python as options of the library |
-//! | `analysis` | one configuration with its verdicts |
 //! | `run` | the rows of a run as arrays |
 //! | `sweep` | many runs in shards, and their columns |
-//! | `samples` | a scene whose data vary within their tolerances |
 //! | `comparison` | a scene by every method: error against run time |
 
-mod analysis;
 mod comparison;
 mod fault;
 mod functions;
 mod hearing;
 mod options;
 mod run;
-mod samples;
 mod scene;
 mod sweep;
 
 /// The private module.
 #[pyo3::pymodule]
 mod _pfaff {
-    #[pymodule_export]
-    use super::analysis::Analysis;
     #[pymodule_export]
     use super::fault::{input_code, panics};
     #[pymodule_export]
@@ -42,8 +36,6 @@ mod _pfaff {
 
     #[pymodule_export]
     use super::comparison::work_precision;
-    #[pymodule_export]
-    use super::samples::tolerance;
 
     /// The version of the package.
     #[pymodule_export]

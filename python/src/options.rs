@@ -1,15 +1,15 @@
 //! Words and numbers from Python as options of the library.
 
 use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
 use pfaff::ConfigurationAnalysis;
 use pfaff::dynamics::plan::{Reactions, Rows};
 use pfaff::dynamics::{Method, Wanted};
 use pfaff::memory::{Budget, Bytes};
-use pfaff::model::{ConstraintId, Mechanism, System, Tolerance};
+use pfaff::model::Tolerance;
 use pfaff::scene::nearest;
-use pfaff::solvability::{Allowed, Choice, Compliance, NormWeights};
-use pfaff::{RunOptions as Overrides, StudyError};
+use pfaff::RunOptions as Overrides;
 use pyo3::prelude::*;
 
 use crate::fault::{Fault, wrong};
@@ -81,6 +81,31 @@ impl RunOptions {
     }
 }
 
+/// Keywords of all questions.
+#[derive(FromPyObject, Clone, Default)]
+#[pyo3(from_item_all)]
+pub(crate) struct Common {
+    tolerance: Option<f64>,
+    angle_tolerance: Option<f64>,
+    threads: Option<usize>,
+    max_memory: Option<Size>,
+    pub(crate) out: Option<PathBuf>,
+}
+
+impl Common {
+    pub(crate) fn tolerance(&self) -> Tolerance {
+        tolerance(self.tolerance, self.angle_tolerance)
+    }
+
+    pub(crate) fn budget(&self) -> Result<Budget, Fault> {
+        budget(self.max_memory.as_ref())
+    }
+
+    pub(crate) fn threads(&self) -> Result<Option<NonZeroUsize>, Fault> {
+        self.threads.map(threads).transpose()
+    }
+}
+
 /// A size: bytes, or a text such as `4GB`.
 #[derive(FromPyObject, Clone)]
 pub(crate) enum Size {
@@ -141,110 +166,5 @@ pub(crate) fn rows_from_zero(rows: Option<&[usize]>) -> Result<Option<Vec<usize>
         None => Err(wrong(
             "rows are counted from 1; there is no row 0".to_owned(),
         )),
-    }
-}
-
-/// What may be deleted: a word, or rows from 1.
-#[derive(FromPyObject)]
-pub(crate) enum Allow {
-    #[pyo3(transparent)]
-    Word(String),
-    #[pyo3(transparent)]
-    Rows(Vec<usize>),
-}
-
-impl Allow {
-    pub(crate) fn allowed(&self, mechanism: &Mechanism) -> Result<Allowed, Fault> {
-        match self {
-            Self::Word(word) => match word.as_str() {
-                "sensible" => Ok(Allowed::Sensible),
-                "whole" => Ok(Allowed::Whole),
-                "rows" => Ok(Allowed::Rows((0..mechanism.layout().rows()).collect())),
-                _ => Err(unknown("permission", word, &["sensible", "whole", "rows"])),
-            },
-            Self::Rows(rows) => Ok(Allowed::Rows(
-                rows_from_zero(Some(rows))?.unwrap_or_default(),
-            )),
-        }
-    }
-}
-
-/// A choice of reactions that are not unique: the least norm, with the arm (m) on which a torque
-/// counts as a force; compliances (m/N, rad/(N·m)) by name; or rows to drop, from 1.
-#[derive(FromPyObject)]
-pub(crate) enum Choose {
-    #[pyo3(transparent)]
-    Arm(Option<f64>),
-    #[pyo3(transparent)]
-    Drop(Vec<usize>),
-    #[pyo3(transparent)]
-    Compliances(Vec<(String, f64, f64)>),
-}
-
-impl Choose {
-    pub(crate) fn choice(
-        &self,
-        reaction: &dyn Fn(&str) -> Result<ConstraintId, StudyError>,
-    ) -> Result<Choice, Fault> {
-        match self {
-            Self::Arm(None) => Ok(Choice::MinimumNorm(NormWeights::NEWTON_METRE)),
-            Self::Arm(Some(arm)) if arm.is_finite() && *arm > 0.0 => {
-                Ok(Choice::MinimumNorm(NormWeights::with_arm(*arm)))
-            }
-            Self::Arm(Some(arm)) => Err(wrong(format!("length is {arm}, need an arm in m > 0"))),
-            Self::Drop(rows) => Ok(Choice::Elimination(
-                rows_from_zero(Some(rows))?.unwrap_or_default(),
-            )),
-            Self::Compliances(joints) => {
-                let joint = |(name, along, rotation): &(String, f64, f64)| {
-                    if [along, rotation]
-                        .into_iter()
-                        .any(|x| !(x.is_finite() && *x >= 0.0))
-                    {
-                        return Err(wrong(format!(
-                            "the compliance of `{name}` is {along} m/N and {rotation} rad/(N·m), need finite numbers ≥ 0"
-                        )));
-                    }
-                    Ok(Compliance {
-                        reaction: reaction(name)?,
-                        along: [*along; 3],
-                        rotation: *rotation,
-                    })
-                };
-                let joints: Result<_, Fault> = joints.iter().map(joint).collect();
-                Ok(Choice::Compliance(joints?))
-            }
-        }
-    }
-}
-
-/// A point: the name of a marker, or coordinates (m, ground axes).
-#[derive(FromPyObject)]
-pub(crate) enum About {
-    #[pyo3(transparent)]
-    Marker(String),
-    #[pyo3(transparent)]
-    Point(Vec<f64>),
-}
-
-impl About {
-    pub(crate) fn point(&self, of: &ConfigurationAnalysis<'_>) -> Result<[f64; 3], Fault> {
-        let n = of.mechanism.layout().space.n_translations();
-        match self {
-            Self::Marker(name) => of.marker(name).ok_or_else(|| {
-                let observed = of.mechanism.frames();
-                let markers = observed.observed().markers.iter();
-                let names: Vec<&str> = markers.map(|marker| marker.name.as_str()).collect();
-                unknown("marker", name, &names)
-            }),
-            Self::Point(numbers) if numbers.len() == n && numbers.iter().all(|x| x.is_finite()) => {
-                let mut point = [0.0; 3];
-                point[..n].copy_from_slice(numbers);
-                Ok(point)
-            }
-            Self::Point(numbers) => Err(wrong(format!(
-                "about is {numbers:?}, need {n} finite numbers (m), or the name of a marker"
-            ))),
-        }
     }
 }

@@ -5,26 +5,27 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pfaff::choice::choices;
 use pfaff::import::{Axes, Base, FixedLinks, Folder, Options};
 use pfaff::memory::Budget;
 use pfaff::model::codes::Code;
 use pfaff::model::{Registry, System, Tolerance};
-use pfaff::question::Control;
+use pfaff::question::{Control, Output, Place};
 use pfaff::questions::Questions;
 use pfaff::refusal::{Refusal, json};
-use pfaff::report::documents::EventDocument;
-use pfaff::report::{Column as ReportColumn, Origin, OutputDirectory, ReactionColumn, Trajectory};
+use pfaff::report::documents::{EventDocument, part_as_json};
+use pfaff::report::{Column as ReportColumn, FileError, Origin, OutputDirectory, ReactionColumn, Trajectory};
 use pfaff::scene::{KeyError, Template};
+use pfaff::solvability::Choice;
 use pfaff::start::{Judged, Start};
 use pfaff::study::EndedRun;
 use pfaff::{AssembledScene, RunOptions as Overrides, Study, StudyError, source};
 use pyo3::prelude::*;
 
-use crate::analysis::{Analysis, Configured, plain};
 use crate::fault::{Fault, wrong};
 use crate::functions::Functions;
 use crate::hearing::{Hearing, heard, heard_here};
-use crate::options::{Choose, RunOptions, Size, budget, rows_from_zero, tolerance, unknown};
+use crate::options::{Common, RunOptions, Size, budget, rows_from_zero, unknown};
 use crate::run::{Column, Recorded, Run, by_rows};
 
 pub(crate) static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standard);
@@ -113,6 +114,14 @@ impl Source {
         assembled.prepare(overrides).map_err(|e| self.fault(e))
     }
 
+    /// Choices as texts of the command.
+    fn choices(&self, texts: &[String], study: &Study) -> Result<Vec<Choice>, Fault> {
+        let rows = study.prepared.mechanism.layout().rows();
+        let (name, text) = (self.name.clone(), self.text.clone());
+        let of = Start::new(name, text, &REGISTRY, budget(None)?);
+        Ok(choices(texts, &of, (rows, &|name| study.reaction(name)))?)
+    }
+
     fn recorded(&self, asked: RunAsked, hearing: &Arc<Hearing>) -> Result<Recorded, Fault> {
         let RunAsked {
             options,
@@ -137,8 +146,7 @@ impl Source {
         let start = study.analyse(0.0, None).map_err(|e| self.fault(e))?;
         options.check_names(&start)?;
         let mut wanted = options.wanted();
-        for choice in &choices {
-            let choice = choice.choice(&|name| study.reaction(name))?;
+        for choice in self.choices(&choices, study)? {
             let named = start.named(&choice).map_err(|e| self.fault(e))?;
             wanted.choices.push(named);
         }
@@ -178,8 +186,8 @@ impl Source {
             }
             for event in sample.events {
                 if let Some(on_event) = &on_event {
-                    let document =
-                        plain(&EventDocument::new(event, mechanism.layout())).unwrap_or_default();
+                    let document = EventDocument::new(event, mechanism.layout());
+                    let document = part_as_json(&document).unwrap_or_default();
                     hearing.call(|py| on_event.call1(py, (document,)));
                 }
             }
@@ -222,7 +230,7 @@ impl Source {
 struct RunAsked {
     options: RunOptions,
     numbers_of_choice: bool,
-    choices: Vec<Choose>,
+    choices: Vec<String>,
     functions: Functions,
     on_event: Option<Py<PyAny>>,
     on_row: Option<Py<PyAny>>,
@@ -405,15 +413,6 @@ impl Scene {
         Ok(Self::of(self.0.name.clone(), text))
     }
 
-    /// Reads and assembles the scene; raises what is wrong with it.
-    fn check(&self, py: Python<'_>, max_memory: Option<Size>) -> PyResult<()> {
-        let own = Arc::clone(&self.0);
-        heard(py, move |_| {
-            let budget = budget(max_memory.as_ref())?;
-            own.judged((Tolerance::default(), budget), None).map(|_| ())
-        })
-    }
-
     /// The name that the scene gives itself, the names of its bodies, and of its joints and drives
     /// in the order of the rows.
     fn names(&self, py: Python<'_>) -> PyResult<(String, Vec<String>, Vec<String>)> {
@@ -428,36 +427,28 @@ impl Scene {
         })
     }
 
-    /// Analyses a configuration.
-    #[pyo3(signature = (t, length, angle, drop, max_memory))]
-    fn analyse(
+    /// Coordinates and velocities at a time of the motion; the velocities are empty if none are
+    /// known.
+    fn state(
         &self,
         py: Python<'_>,
         t: f64,
-        length: Option<f64>,
-        angle: Option<f64>,
+        common: Common,
         drop: Option<Vec<usize>>,
-        max_memory: Option<Size>,
-    ) -> PyResult<Analysis> {
+    ) -> PyResult<(Vec<f64>, Vec<f64>)> {
         let own = Arc::clone(&self.0);
-        let of = heard(py, move |hearing| {
-            if !(t >= 0.0 && t.is_finite()) {
-                return Err(wrong(format!("t is {t}, need a time ≥ 0")));
-            }
+        heard(py, move |hearing| {
             let drop = rows_from_zero(drop.as_deref())?;
-            let within = (tolerance(length, angle), budget(max_memory.as_ref())?);
-            let judged = own.judged(within, drop.clone())?;
-            let kept = match judged.as_ref() {
-                Judged::Stands(stands) if t == 0.0 => stands.kept.clone(),
+            let judged = own.judged((common.tolerance(), common.budget()?), drop)?;
+            let state = match judged.as_ref() {
+                Judged::Stands(stands) if t == 0.0 => stands.kept.state.clone(),
                 judged => {
-                    let ends = || hearing.has_ended();
-                    let found = judged.study()?.analyse_until(t, drop.as_deref(), &ends);
-                    found.map_err(|e| own.fault(e))?.kept()
+                    let found = judged.study()?.state_until(t, &|| hearing.has_ended());
+                    found.map_err(|e| own.fault(e))?
                 }
             };
-            Ok(Configured { of: judged, kept })
-        })?;
-        Ok(Analysis::new(of))
+            Ok((state.q, state.v))
+        })
     }
 
     /// Runs the scene. With `numbers_of_choice` numbers that are not determined on their stretch of
@@ -471,7 +462,7 @@ impl Scene {
         py: Python<'_>,
         options: RunOptions,
         numbers_of_choice: bool,
-        choices: Vec<Choose>,
+        choices: Vec<String>,
         on_event: Option<Py<PyAny>>,
         on_row: Option<Py<PyAny>>,
         drives: Vec<(String, Py<PyAny>)>,
@@ -511,7 +502,7 @@ impl Scene {
         py: Python<'_>,
         directory: PathBuf,
         options: RunOptions,
-        choices: Vec<Choose>,
+        choices: Vec<String>,
         until: Option<f64>,
         drives: Vec<(String, Py<PyAny>)>,
         forces: Vec<(String, Py<PyAny>)>,
@@ -527,9 +518,7 @@ impl Scene {
             }
             let of_run = study.memory(own.text.len()).map_err(|e| own.fault(e))?;
             options.budget()?.allow(of_run, "this run")?;
-            let choices = choices.iter();
-            let choices = choices.map(|choice| choice.choice(&|name| study.reaction(name)));
-            study.choices = choices.collect::<Result<_, _>>()?;
+            study.choices = own.choices(&choices, &study)?;
             if hearing.ends() {
                 return Err(own.fault(StudyError::Interrupted));
             }
@@ -613,32 +602,73 @@ impl Scene {
         Ok((c, mass, gamma, force, b, phi))
     }
 
-    /// Asks a question by its name about this scene and perhaps another one, with its options as a
-    /// JSON object; returns the document.
+    /// Asks a question by its name about this scene and perhaps others, with its options as a JSON
+    /// object; returns the document, and the files if they are asked for.
     fn ask(
         &self,
         py: Python<'_>,
         question: String,
         options: String,
-        other: Option<PyRef<'_, Self>>,
-    ) -> PyResult<String> {
-        let others = other.map(|other| Arc::clone(&other.0));
+        others: Vec<PyRef<'_, Self>>,
+        common: Common,
+        files: bool,
+    ) -> PyResult<(String, Vec<NamedFile>)> {
+        let others = others.iter().map(|other| Arc::clone(&other.0));
         let all: Vec<_> = std::iter::once(Arc::clone(&self.0)).chain(others).collect();
         heard(py, move |hearing| {
             let asked = Questions::read(&question, &options)?;
-            let budget = budget(None)?;
-            let starts = all
-                .iter()
-                .map(|own| own.start(Tolerance::default(), budget));
-            let starts: Vec<_> = starts.collect();
+            let (tolerance, budget) = (common.tolerance(), common.budget()?);
+            let starts: Vec<_> = all.iter().map(|own| own.start(tolerance, budget)).collect();
             let control = Control {
                 stop: &|| hearing.has_ended(),
+                wants_files: files || common.out.is_some(),
+                threads: common.threads()?,
                 ..Control::quiet()
             };
             let starts: Vec<&Start<'_>> = starts.iter().map(Arc::as_ref).collect();
             let answer = asked.as_question().ask(&starts, &control)?;
-            Ok(answer.json()?)
+            let mut place = Files::default();
+            if control.wants_files {
+                answer.files(&mut place)?;
+            }
+            if let Some(out) = &common.out {
+                place.write(out, asked.facts().output)?;
+            }
+            Ok((answer.json()?, place.0))
         })
+    }
+}
+
+/// A file by its name.
+type NamedFile = (String, Vec<u8>);
+
+/// The files of an answer in memory.
+#[derive(Default)]
+struct Files(Vec<NamedFile>);
+
+impl Place for Files {
+    fn put(&mut self, name: &str, content: &[u8]) -> Result<(), FileError> {
+        self.0.push((name.to_owned(), content.to_vec()));
+        Ok(())
+    }
+}
+
+impl Files {
+    /// Writes them into a directory, all or none.
+    fn write(&self, path: &Path, output: Option<Output>) -> Result<(), Refusal> {
+        let Some(Output { family, .. }) = output else {
+            return Ok(());
+        };
+        let directory = OutputDirectory::create(path)?.exclusive()?.whole();
+        directory.check_ours(family)?;
+        let mut written = Vec::new();
+        for (name, content) in &self.0 {
+            let mut file = directory.file(name)?;
+            file.put(content)?;
+            written.push(file);
+        }
+        directory.finish(family, written)?;
+        Ok(())
     }
 }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 from collections.abc import Callable
@@ -36,6 +37,12 @@ simulate = { t_end = 2.0 }
 # What begins in the background of a shell ignores interrupts, and so would its children: the tests
 # that interrupt would wait for ever.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def with_keywords(text: str) -> str:
+    """A text of the command with keywords in place of its options."""
+    text = re.sub(r"`--([a-z][a-z-]*) ", lambda m: f"`{m[1].replace('-', '_')}=", text)
+    return re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", "_"), text)
 
 
 def _binary() -> Path | None:

@@ -93,7 +93,8 @@ def test_a_limit_of_memory_is_that_of_the_command(command: Command, tmp_path: Pa
     """Also where the scene is known already."""
     path = tmp_path / "chain.toml"
     path.write_text(chain(300), encoding="utf-8")
-    scene = pfaff.Scene.from_file(path).check()
+    scene = pfaff.Scene.from_file(path)
+    scene.check()
     with pytest.raises(pfaff.ComputationError) as raised:
         scene.check(max_memory="12MB")
     told = command.document("check", path, "--max-memory", "12MB")["error"]

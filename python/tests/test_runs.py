@@ -20,7 +20,7 @@ import pytest
 from conftest import PENDULUM, ROOT, SLEIGH
 
 import pfaff
-from pfaff._scene import Choice
+from pfaff._choices import Choice
 
 
 def test_a_stone_falls() -> None:
@@ -374,7 +374,7 @@ def test_samples_of_a_beam() -> None:
         _ = samples["roler.Fy"]
     with pytest.raises(ValueError, match="read-only"):
         load[0] = 1.0
-    varied = beam.tolerance(200, vary={"body.beam.mass": 0.5})
+    varied = beam.tolerance(200, vary={"body.beam.mass": "±0.5"})
     mass = 2.0 + 0.5 * varied["varied.body.beam.mass"]
     np.testing.assert_allclose(varied["roller.Fy"] + varied["hinge.Fy"], -10.0 * mass, rtol=1e-9)
     frame, table = samples.to_polars(), samples.to_pandas()

@@ -14,6 +14,7 @@ mod guards;
 mod house;
 mod licences;
 mod platforms;
+mod questions;
 mod right_hand_side;
 mod scene;
 mod tree;
@@ -27,6 +28,7 @@ const USAGE: &str = "usage: cargo xtask COMMAND
   codegen --scene FILE --out FILE.rs [--drop ROWS] [--dynamics PATH] [--libm] [--inputs KEYS] [--check]
                       one mechanism as one module; what KEYS touch, numbers of the scene such as body.cart.mass,joint.A.at, is an argument of it
   api [--check]       what a user of each published crate can name, into docs/api
+  questions [--check] what follows from the list of questions: schemas of answers, methods of Python, tables of the book
   right-hand-side     times and instructions of one right-hand side, into docs/reports/right-hand-side
   instructions        the same, told only
   choices             build time, size and dependencies of programs that use a part, into docs/reports/choices
@@ -52,6 +54,8 @@ fn main() -> ExitCode {
         ["codegen", "--scene", scene, rest @ ..] => scene::generate(scene, rest),
         ["api"] => api::write(),
         ["api", "--check"] => api::check(),
+        ["questions"] => questions::run(&[]),
+        ["questions", "--check"] => questions::run(&["--check"]),
         ["right-hand-side"] => right_hand_side::report(),
         ["instructions"] => right_hand_side::instructions(),
         ["choices"] => choices::report(),

@@ -7,10 +7,12 @@ mod values;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
+use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use pfaff::command::named;
 use pfaff::import::Base;
+use pfaff::questions::Questions;
 use pfaff::sweep::{Axis, Shard};
 
 pub(crate) use known::{Known, Settings};
@@ -56,9 +58,9 @@ pub(crate) enum Command {
     /// What the code of an error means, and what to do; without a code, list all
     #[command(after_help = examples::EXPLAIN)]
     Explain(Explain),
-    /// The JSON schema of scene files, for editors
+    /// The JSON schema of scene files, for editors, or that of an answer
     #[command(after_help = examples::SCHEMA)]
-    Schema,
+    Schema(Schema),
     /// Completions for a shell, on standard output
     #[command(after_help = examples::COMPLETIONS)]
     Completions(Completions),
@@ -78,7 +80,7 @@ impl Command {
             | Self::Import(Import { json, .. })
             | Self::View(View { json, .. })
             | Self::Explain(Explain { json, .. }) => *json,
-            Self::Schema | Self::Completions(_) | Self::Man(_) => false,
+            Self::Schema(_) | Self::Completions(_) | Self::Man(_) => false,
         };
         if json { Answer::Json } else { Answer::Words }
     }
@@ -240,6 +242,13 @@ pub(crate) struct Explain {
     /// The code, or all codes, as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct Schema {
+    /// The question whose answer with --json is described; without it: scene files
+    #[arg(value_parser = PossibleValuesParser::new(Questions::FACTS.iter().map(|facts| facts.name)))]
+    pub(crate) question: Option<String>,
 }
 
 #[derive(Args)]

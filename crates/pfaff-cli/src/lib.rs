@@ -148,7 +148,7 @@ impl CommandLine for Arguments {
             Command::Import(a) => import::run(a, console),
             Command::View(a) => view::run(a, console),
             Command::Explain(a) => explain::run(a, console),
-            Command::Schema => manual::schema(console),
+            Command::Schema(arguments) => manual::schema(arguments, console),
             Command::Completions(a) => manual::completions(a, console),
             Command::Man(a) => manual::page(a, console),
         }

@@ -2,14 +2,20 @@
 
 use clap::CommandFactory;
 use clap_mangen::Man;
+use pfaff::questions::Questions;
 use pfaff::scene;
 
-use crate::args::{Arguments, Completions, Man as Page};
+use crate::args::{Arguments, Completions, Man as Page, Schema};
 use crate::console::Console;
 use crate::output::{Failure, Outcome};
 
 /// `pfaff schema`
-pub(crate) fn schema(console: &Console<'_>) -> Outcome {
+pub(crate) fn schema(arguments: &Schema, console: &Console<'_>) -> Outcome {
+    let all = Questions::FACTS.iter();
+    let mut of_answer = all.filter(|facts| arguments.question.as_deref() == Some(facts.name));
+    if let Some(facts) = of_answer.next() {
+        return console.print(facts.schema);
+    }
     console.print(&format!("{:#}\n", scene::schema(console.registry)))
 }
 

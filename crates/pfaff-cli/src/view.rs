@@ -40,7 +40,9 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     arguments.resources.apply(console);
     let scene = source.start(arguments.resources);
     let judged = scene.judged(&Control::quiet())?;
-    let start = judged.configuration().map_err(|e| scene.refusal(e))?;
+    let start = scene
+        .configuration(&judged, |_| ())
+        .map_err(|e| scene.refusal(e))?;
     let document = document_of(&start).map_err(|e| scene.refusal(e))?;
     let (mut pixels, mut boxes) = (None, String::new());
     let content = match form {

@@ -58,9 +58,8 @@ fn choice(text: &str, of: &Start<'_>, (rows, reaction): Named<'_>) -> Result<Cho
             }
         }
         ("compliance", Some(rest)) => {
-            let joints = rest
-                .split(',')
-                .map(|term| compliance(text, term, of, reaction));
+            let joints = terms(rest).into_iter();
+            let joints = joints.map(|term| compliance(text, term, of, reaction));
             Ok(Choice::Compliance(joints.collect::<Result<_, _>>()?))
         }
         ("drop", Some(rest)) => Ok(Choice::Elimination(row_list("--choose drop", rest, rows)?)),
@@ -78,6 +77,19 @@ fn choice(text: &str, of: &Start<'_>, (rows, reaction): Named<'_>) -> Result<Cho
 
 fn wrong(text: &str, expected: &str) -> Refusal {
     Refusal::input(format!("--choose is `{text}`, need {expected}"))
+}
+
+/// Terms between commas; a name may have a comma in it.
+fn terms(text: &str) -> Vec<&str> {
+    let (mut terms, mut begin) = (Vec::new(), 0);
+    let commas = text.match_indices(',').map(|(at, _)| at);
+    for end in commas.chain([text.len()]) {
+        if text[begin..end].contains('=') || end == text.len() {
+            terms.push(&text[begin..end]);
+            begin = end + 1;
+        }
+    }
+    terms
 }
 
 /// Parses `W3=1e-6` (m/N in every direction), or `W3=1e-6/1e-3` with rad/(N·m).

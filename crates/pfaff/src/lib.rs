@@ -45,6 +45,8 @@ pub mod refusal;
 mod report_builder;
 pub mod rows;
 pub mod run_options;
+#[cfg(feature = "schema")]
+pub mod schema;
 pub mod source;
 mod spread;
 pub mod start;

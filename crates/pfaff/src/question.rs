@@ -17,6 +17,8 @@ use crate::words::Block;
 pub trait Question: for<'d> Deserialize<'d> + Default {
     /// Subcommand and method of Python.
     const NAME: &'static str;
+    /// JSON schema of the answer, written by `cargo xtask questions`.
+    const SCHEMA: &'static str;
     /// The files of an answer; `None` if it has none.
     const OUTPUT: Option<Output> = None;
     /// What it is asked about.

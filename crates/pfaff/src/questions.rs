@@ -30,6 +30,8 @@ use crate::refusal::Refusal;
 pub struct Facts {
     /// Subcommand and method of Python.
     pub name: &'static str,
+    /// JSON schema of the answer.
+    pub schema: &'static str,
     /// The files of an answer.
     pub output: Option<Output>,
     /// Names of the scenes that it is asked about.
@@ -40,6 +42,7 @@ impl Facts {
     const fn of<Q: Question>() -> Self {
         Self {
             name: Q::NAME,
+            schema: Q::SCHEMA,
             output: Q::OUTPUT,
             scenes: <Q::Subject<'static> as Subject>::SCENES,
         }
@@ -63,6 +66,21 @@ macro_rules! questions {
         impl Questions {
             /// What is known of each of them, in the order of the list.
             pub const FACTS: &'static [Facts] = &[$(Facts::of::<$question>()),+];
+
+            /// Each of them and its answer as JSON schemas.
+            #[cfg(feature = "schema")]
+            #[must_use]
+            pub fn schemas() -> Vec<crate::schema::QuestionSchema> {
+                vec![$(crate::schema::QuestionSchema::of::<$question>()),+]
+            }
+
+            /// What is known of it.
+            #[must_use]
+            pub fn facts(&self) -> Facts {
+                match self {
+                    $(Self::$question(_) => Facts::of::<$question>(),)+
+                }
+            }
 
             /// The question, whichever it is.
             #[must_use]

@@ -8,6 +8,7 @@ use serde::{Deserialize, Deserializer};
 
 /// Options of the caller that replace those of the scene.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 pub struct RunOptions {
@@ -40,15 +41,21 @@ pub struct RunOptions {
     pub max_steps: Option<u64>,
     /// Integrator
     #[serde(deserialize_with = "method")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     #[cfg_attr(feature = "command", arg(long, value_name = "M", value_parser = crate::command::named(Method::ALL, Method::name)))]
     pub method: Option<Method>,
     /// Treatment of drift
     #[serde(deserialize_with = "stabilisation")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     #[cfg_attr(feature = "command", arg(long, value_name = "S", value_parser = crate::command::named(Stabilisation::ALL, Stabilisation::name)))]
     pub stabilisation: Option<Stabilisation>,
     /// Rows to eliminate, counted from 1
     // In the program they are counted from 0.
     #[serde(deserialize_with = "rows")]
+    #[cfg_attr(
+        feature = "schema",
+        schemars(with = "Option<Vec<std::num::NonZeroUsize>>")
+    )]
     #[cfg_attr(feature = "command", arg(long, value_name = "ROWS", value_delimiter = ',', value_parser = row))]
     pub drop: Option<Vec<usize>>,
     /// Number of components that compute at the same time.

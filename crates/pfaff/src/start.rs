@@ -29,6 +29,7 @@ pub struct Start<'r> {
     /// What its computations may take of the memory.
     pub budget: Budget,
     judged: OnceLock<Arc<Judged>>,
+    verdicts: OnceLock<KeptAnalysis>,
 }
 
 impl<'r> Start<'r> {
@@ -42,14 +43,18 @@ impl<'r> Start<'r> {
             registry,
             budget,
             judged: OnceLock::new(),
+            verdicts: OnceLock::new(),
         }
     }
 
     /// The same, with what is known of it by another one with the same text and tolerance.
     #[must_use]
     pub fn knowing(self, other: &Self) -> Self {
-        let judged = other.judged.clone();
-        Self { judged, ..self }
+        Self {
+            judged: other.judged.clone(),
+            verdicts: other.verdicts.clone(),
+            ..self
+        }
     }
 
     /// An error with its places in the text.
@@ -137,6 +142,31 @@ impl<'r> Start<'r> {
         Ok(Arc::clone(self.judged.get_or_init(|| judged)))
     }
 
+    /// The verdicts at [`Self::judged`], found once; `progress` is called with the number of joints
+    /// that have been judged.
+    ///
+    /// # Errors
+    /// C cannot be analysed.
+    pub fn configuration<'j>(
+        &self,
+        judged: &'j Judged,
+        progress: impl Fn(usize) + Sync,
+    ) -> Result<ConfigurationAnalysis<'j>, StudyError> {
+        let known = match judged {
+            Judged::Stands(stands) => &stands.kept,
+            Judged::Moves(study) => match self.verdicts.get() {
+                Some(known) => known,
+                None => {
+                    let found = study.analyse_with_progress(0.0, None, progress)?;
+                    self.verdicts.get_or_init(|| found.kept());
+                    return Ok(found);
+                }
+            },
+        };
+        let (scene, mechanism) = judged.parts();
+        Ok(ConfigurationAnalysis::again(scene, mechanism, known))
+    }
+
     /// The study with the options of the scene.
     ///
     /// # Errors
@@ -184,20 +214,6 @@ impl Judged {
         match self {
             Self::Moves(study) => Ok(study),
             Self::Stands(stands) => Err(stands.refusal.clone()),
-        }
-    }
-
-    /// The verdicts at the start.
-    ///
-    /// # Errors
-    /// C cannot be analysed.
-    pub fn configuration(&self) -> Result<ConfigurationAnalysis<'_>, StudyError> {
-        match self {
-            Self::Moves(study) => study.analyse(0.0, None),
-            Self::Stands(stands) => {
-                let (scene, mechanism) = self.parts();
-                Ok(ConfigurationAnalysis::again(scene, mechanism, &stands.kept))
-            }
         }
     }
 

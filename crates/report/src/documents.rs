@@ -61,6 +61,7 @@ pub const FORMAT: u32 = 2;
 
 /// A document with its head.
 #[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct Headed<'d, D> {
     format: u32,
     /// The version of the program.
@@ -113,6 +114,7 @@ pub fn part_as_json(part: &impl Serialize) -> io::Result<String> {
 /// A verdict with its number: `verdict`, `margin`, `within_tolerance`, and a `reason` if it is
 /// undecided.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct VerdictDocument {
     /// `unique`, `not_unique` or `undecided`.
@@ -180,6 +182,18 @@ impl<T> std::ops::Index<&str> for Named<T> {
             Some(value) => value,
             None => panic!("there is no `{name}`"),
         }
+    }
+}
+
+#[cfg(feature = "schema")]
+impl<T: schemars::JsonSchema> schemars::JsonSchema for Named<T> {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        format!("{}ByName", T::schema_name()).into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let of_each = generator.subschema_for::<T>();
+        schemars::json_schema!({ "type": "object", "additionalProperties": of_each })
     }
 }
 

@@ -14,6 +14,7 @@ pub use table::WorkPrecisionTable;
 
 /// How a run was made.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CurveName {
     /// Treatment of redundancy.
     pub formulation: &'static str,
@@ -26,6 +27,7 @@ pub struct CurveName {
 /// One run, or the reason why there is none. Errors are scaled; [`WorkPrecisionScene::reference`]
 /// describes the reference values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WorkPrecisionRow {
     /// The scene.
     pub scene: String,
@@ -98,6 +100,7 @@ impl WorkPrecisionRow {
 
 /// The reference values of the runs of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ReferenceDocument {
     /// Source of the values.
     pub source: String,
@@ -118,6 +121,7 @@ impl ReferenceDocument {
 
 /// The ranking of curves for an error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RankingLine {
     /// The error that is reached.
     pub error: f64,
@@ -127,6 +131,7 @@ pub struct RankingLine {
 
 /// A curve at an error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Place {
     /// The curve.
     #[serde(flatten)]
@@ -139,6 +144,7 @@ pub struct Place {
 
 /// All results of one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WorkPrecisionScene {
     /// Its name.
     pub name: String,
@@ -158,6 +164,7 @@ pub struct WorkPrecisionScene {
 
 /// The machine, versions, date and command of the runs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Provenance {
     /// Processor, cores, operating system.
     pub machine: String,
@@ -171,6 +178,7 @@ pub struct Provenance {
 
 /// A complete comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WorkPrecisionDocument {
     /// The machine, versions, date and command of the runs.
     pub provenance: Provenance,

@@ -10,6 +10,7 @@ use crate::text::SourceText;
 
 /// Severity of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Severity {
@@ -23,6 +24,7 @@ pub enum Severity {
 
 /// A marked part of the file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Label {
     /// Range in the text (bytes).
     pub span: Range<usize>,
@@ -38,6 +40,7 @@ pub struct Label {
 ///
 /// `Display` writes it in one line, `file:line:column: error: message`, as compilers do.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Diagnostic {
     /// Its severity.
     pub severity: Severity,

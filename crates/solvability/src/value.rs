@@ -190,22 +190,46 @@ impl std::ops::Add for Value {
     }
 }
 
+/// A number with its verdict.
+#[derive(Serialize)]
+#[cfg_attr(
+    feature = "schema",
+    derive(schemars::JsonSchema),
+    schemars(rename = "Value")
+)]
+struct Data<'a> {
+    /// The number; `null` if none is given.
+    value: Option<f64>,
+    /// `unique`, `not_unique` or `undecided`.
+    verdict: &'static str,
+    /// Whether it is unique, but made of the last digits of the data.
+    fragile: bool,
+    /// Largest change by one point, as a share.
+    sensitivity: Option<f64>,
+    /// Why it is undecided, or why no finite reaction exists.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+    /// The choice that the number depends on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    choice: Option<&'a Label>,
+    /// Why no finite reaction exists.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    no_finite_reaction: Option<&'a NoFiniteReaction>,
+}
+
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Value {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        Data::schema_name()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        Data::json_schema(generator)
+    }
+}
+
 impl Serialize for Value {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        /// The data of a value in their order.
-        #[derive(Serialize)]
-        struct Data<'a> {
-            value: Option<f64>,
-            verdict: &'static str,
-            fragile: bool,
-            sensitivity: Option<f64>,
-            #[serde(skip_serializing_if = "Option::is_none")]
-            reason: Option<String>,
-            #[serde(skip_serializing_if = "Option::is_none")]
-            choice: Option<&'a Label>,
-            #[serde(skip_serializing_if = "Option::is_none")]
-            no_finite_reaction: Option<&'a NoFiniteReaction>,
-        }
         let reason = match (&self.number, &self.verdict) {
             (Number::NotFinite(why), _) => Some(why.to_string()),
             (_, Verdict::Undecided { reason }) => Some(reason.clone()),

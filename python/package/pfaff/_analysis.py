@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
@@ -12,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arguments as arguments
+from ._choices import as_words
 from ._errors import wrong
 
 if TYPE_CHECKING:
-    from . import _pfaff
-    from ._scene import Scene
+    from ._answer import Answer
 
 Array = NDArray[np.float64]
 Point = Sequence[float] | str
@@ -69,18 +68,18 @@ def _components(of: Iterable[Mapping[str, Any]]) -> dict[str, ComponentVerdict]:
 class Verdict:
     """The verdict on the reaction of a joint or drive."""
 
-    __slots__ = ("_analysis", "_word", "name")
+    __slots__ = ("_analysis", "name")
 
-    def __init__(self, analysis: Analysis, name: str, word: str) -> None:
+    def __init__(self, analysis: Analysis, name: str) -> None:
         self._analysis = analysis
-        self._word = word
         self.name = name
         """Its name."""
 
     @property
     def verdict(self) -> str:
         """``unique``, ``not_unique`` or ``undecided``."""
-        return self._word
+        word: str = self._entry["verdict"]
+        return word
 
     @property
     def generic_verdict(self) -> str | None:
@@ -94,7 +93,7 @@ class Verdict:
     @property
     def unique(self) -> bool:
         """Whether the mechanism determines the whole reaction."""
-        return self._word == "unique"
+        return self.verdict == "unique"
 
     @property
     def document(self) -> dict[str, Any]:
@@ -169,13 +168,14 @@ class _Verdicts(Mapping[str, Verdict]):
 
     __slots__ = ("_analysis", "_of")
 
-    def __init__(self, analysis: Analysis, words: Iterable[tuple[str, str]]) -> None:
+    def __init__(self, analysis: Analysis, names: Iterable[str]) -> None:
         self._analysis = analysis
-        self._of = {name: Verdict(analysis, name, word) for name, word in words}
+        self._of = {name: Verdict(analysis, name) for name in names}
 
     def __getitem__(self, name: str) -> Verdict:
         if name not in self._of:
-            self._analysis._of.check_name(name)
+            # The library refuses it by name.
+            self._analysis._again(make_unique=[arguments.text("name", name)])
         return self._of[name]
 
     def __contains__(self, name: object) -> bool:
@@ -227,29 +227,19 @@ def _number(value: float | None) -> float:
 class Analysis:
     """The verdicts at one configuration. It does not change, so a copy is the object itself.
 
-    A pickle has the scene, and what was computed until then. Where it is read, a question that
-    needs more analyses the configuration again.
+    What needs more than its document analyses the configuration again.
     """
 
-    def __init__(self, scene: Scene, asked: tuple[Any, ...]) -> None:
-        self._scene = scene
-        self._asked = asked
-        of = scene._of.analyse(*asked)
-        self._made: _pfaff.Analysis | None = of
-        self._ranks = of.ranks()
-        self._document: dict[str, Any] | None = None
-        self._named: dict[str, dict[str, Any]] | None = None
-        self._verdicts = _Verdicts(self, of.words())
+    def __init__(self, answer: Answer) -> None:
+        self._asked = answer._replace(document={})
+        self._own = answer.document
+        self._reactions: dict[str, dict[str, Any]] = {r["name"]: r for r in self._own["reactions"]}
+        self._verdicts = _Verdicts(self, self._reactions)
 
-    @property
-    def _of(self) -> _pfaff.Analysis:
-        """What answers questions."""
-        if self._made is None:
-            self._made = self._scene._of.analyse(*self._asked)
-        return self._made
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_made": None}
+    def _again(self, **options: Any) -> dict[str, Any]:
+        """The document of the same configuration with other options."""
+        scene, own, common, *_ = self._asked
+        return scene._asked("analyze", {**own, **options}, common).document
 
     def __copy__(self) -> Analysis:
         return self
@@ -267,13 +257,6 @@ class Analysis:
         """The document of ``pfaff analyze --json``: a copy, whose changes nobody else sees."""
         return deepcopy(self._own)
 
-    @property
-    def _own(self) -> dict[str, Any]:
-        """The document, made once."""
-        if self._document is None:
-            self._document = json.loads(self._of.document([]))
-        return self._document
-
     def _direction_columns(self, reaction: Mapping[str, Any]) -> int:
         """Number of columns of the directions of a reaction."""
         is_spatial = self._own["velocities"] == 6 * self._own["bodies"]
@@ -283,35 +266,38 @@ class Analysis:
         return sum(c["name"] in ("Fx", "Fy", "T") for c in reaction["components"])
 
     @property
-    def _reactions(self) -> dict[str, dict[str, Any]]:
-        if self._named is None:
-            self._named = {r["name"]: r for r in self._own["reactions"]}
-        return self._named
-
-    @property
     def rank(self) -> int:
         """Number of independent rows."""
-        return self._ranks[0]
+        rank: int = self._own["rank"]
+        return rank
 
     @property
     def redundancy(self) -> int:
         """Number of rows too many."""
-        return self._ranks[1]
+        redundancy: int = self._own["redundancy"]
+        return redundancy
 
     @property
     def mobility(self) -> int:
         """Degrees of freedom."""
-        return self._ranks[2]
+        mobility: int = self._own["mobility"]
+        return mobility
 
     @property
     def q(self) -> Array:
         """Coordinates."""
-        return np.array(self._of.state()[0])
+        return self._state()[0]
 
     @property
     def v(self) -> Array:
         """Velocities; empty if none are known that satisfy the constraints."""
-        return np.array(self._of.state()[1])
+        return self._state()[1]
+
+    def _state(self) -> tuple[Array, Array]:
+        scene, options, common, *_ = self._asked
+        time, drop = options["at_time"], options["drop"]
+        q, v = scene._of.state(time, common.checked(), drop)
+        return np.array(q), np.array(v)
 
     @property
     def warnings(self) -> list[str]:
@@ -321,7 +307,7 @@ class Analysis:
 
     def combine(self, sum: str) -> GroupVerdict:
         """The verdict on a sum, as ``"W3.N + W4.N"``, or ``"W3 + W4"`` of whole wrenches."""
-        found = json.loads(self._of.combine(arguments.text("sum", sum)))
+        found = self._again(combine=[arguments.text("sum", sum)])["groups"][-1]
         values = {value["name"]: _number(value["value"]) for value in found.get("values", [])}
         components = _components(found.get("components", []))
         data = (found["sensitivity"], found["fragile"])
@@ -330,13 +316,12 @@ class Analysis:
     def moment(self, name: str, about: Point) -> dict[str, ComponentVerdict]:
         """The verdicts on the moment of a reaction about a point."""
         needed = "coordinates (m), or the name of a marker"
-        point: str | list[float] = (
-            about
-            if isinstance(about, str)
-            else arguments.listed("about", about, arguments.number, needed)
-        )
-        name = arguments.text("name", name)
-        return _components(json.loads(self._of.moment(name, point))["components"])
+        if not isinstance(about, str):
+            numbers = arguments.listed("about", about, arguments.number, needed)
+            about = ",".join(map(repr, numbers))
+        verdict = self.verdicts[arguments.text("name", name)]
+        found = self._again(about=about)["reactions"]
+        return _components(found[list(self.verdicts).index(verdict.name)]["moment"]["components"])
 
     def make_unique(self, name: str, allow: Allow = "sensible") -> dict[str, Any]:
         """The smallest deletions of rows that make a reaction unique, without change of motion.
@@ -344,14 +329,17 @@ class Analysis:
         The entry of ``pfaff analyze --make-unique --json``: ``ways`` with ``rows`` and ``text``,
         and whether they are ``complete``.
         """
-        allowed = allow if isinstance(allow, str) else arguments.rows("allow", allow)
         name = arguments.text("name", name)
-        found: dict[str, Any] = json.loads(self._of.make_unique(name, allowed))
-        return found
+        if not isinstance(allow, str):
+            allow = "rows:" + ",".join(map(str, arguments.rows("allow", allow)))
+        (found,) = self._again(make_unique=[name], allow=allow)["make_unique"]
+        of_reaction: dict[str, Any] = found
+        return of_reaction
 
     def eliminations(self, limit: int = 100) -> dict[str, Any]:
         """Sets of rows that can be deleted without a change of motion: ``count`` and ``sets``."""
-        found: dict[str, Any] = json.loads(self._of.eliminations(arguments.count("limit", limit)))
+        limit = arguments.count("limit", limit)
+        found: dict[str, Any] = self._again(eliminations=limit)["eliminations"]
         return found
 
     def along(self, t_end: float | None = None) -> dict[str, Any]:
@@ -362,8 +350,8 @@ class Analysis:
         ``special`` the instants with other verdicts, as in the ``document`` of a run; ``passages``
         the singular configurations.
         """
-        end = arguments.maybe(arguments.number, "t_end", t_end)
-        found: dict[str, Any] = json.loads(self._of.along(end))
+        end = arguments.maybe(arguments.finite, "t_end", t_end)
+        found: dict[str, Any] = self._again(along="stated" if end is None else end)["along"]
         return found
 
     def explain(self) -> list[str]:
@@ -382,29 +370,28 @@ class Analysis:
         ``length`` (m) on which a torque counts as a force; rows to drop, from 1; or compliances
         (m/N) of joints by name.
         """
-        choice: float | None | list[int] | list[tuple[str, float, float]]
-        choice = arguments.maybe(arguments.number, "length", length)
-        if isinstance(choose, Mapping):
-            soft = arguments.named("choose", choose, arguments.number, "compliances")
-            choice = [(name, x, 0.0) for name, x in soft.items()]
-        elif choose is not None and not isinstance(choose, str):
-            choice = arguments.rows("choose", choose)
-        elif choose not in (None, "minimum-norm"):
+        length = arguments.maybe(arguments.number, "length", length)
+        arm = "" if length is None else f":length={length!r}"
+        if choose is None or choose == "minimum-norm":
+            words = f"minimum-norm{arm}"
+        elif isinstance(choose, str):
             raise wrong(
                 f"choose is `{choose}`, need `minimum-norm`, rows to drop, or compliances by name"
             )
+        else:
+            words = as_words(choose)
         hidden = choose is None
         return {
             r["name"]: {
                 c["name"]: float("nan") if hidden and "choice" in c else _number(c["value"])
                 for c in r["components"]
             }
-            for r in json.loads(self._of.distribution(choice))["reactions"]
+            for r in self._again(choose=[words])["choices"][0]["reactions"]
         }
 
     def __repr__(self) -> str:
-        rank, redundancy, mobility = self._ranks
-        return f"<pfaff.Analysis: rank {rank}, redundancy {redundancy}, mobility {mobility}>"
+        words = f"rank {self.rank}, redundancy {self.redundancy}, mobility {self.mobility}"
+        return f"<pfaff.Analysis: {words}>"
 
     def _repr_html_(self) -> str:
         from html import escape

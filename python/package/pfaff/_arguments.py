@@ -36,6 +36,19 @@ def number(name: str, given: Any, needed: str = "a number") -> float:
         raise wrong(f"{name} cannot be read as a number: {error}") from None
 
 
+def finite(name: str, given: Any, needed: str = "a number") -> float:
+    """A number that is neither NaN nor infinite."""
+    found = number(name, given, needed)
+    if not np.isfinite(found):
+        raise wrong(f"{name} is {found}, need a finite number")
+    return found
+
+
+def finite_or_word(name: str, given: Any) -> float | str:
+    """Such a number, or a text."""
+    return given if isinstance(given, str) else finite(name, given, "a number or a text")
+
+
 def count(name: str, given: Any) -> int:
     """A whole number ≥ 0."""
     try:
@@ -59,6 +72,13 @@ def flag(name: str, given: Any) -> bool:
     if not isinstance(given, (bool, np.bool_)):
         raise wrong_type(name, given, "True or False")
     return bool(given)
+
+
+def instance(name: str, given: Any, of: type[T]) -> T:
+    """Something of a class of this package."""
+    if not isinstance(given, of):
+        raise wrong_type(name, given, f"a {of.__name__}")
+    return given
 
 
 def path(name: str, given: Any) -> str:
@@ -96,6 +116,14 @@ def listed(name: str, given: Any, check: Callable[[str, Any], T], needed: str) -
 def texts(name: str, given: Any) -> list[str]:
     """Texts."""
     return listed(name, given, text, "a list of texts")
+
+
+def settings(name: str, given: Any) -> list[str]:
+    """Texts as ``"KEY=VALUE"``, or values by key."""
+    if isinstance(given, Mapping):
+        by_key = named(name, given, text, "texts by key")
+        return [f"{key}={value}" for key, value in by_key.items()]
+    return listed(name, given, text, "texts as KEY=VALUE, or values by key")
 
 
 def rows(name: str, given: Any) -> list[int]:

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ._run import _unknown
+from ._errors import unknown
 
 Array = NDArray[np.float64]
 
@@ -69,7 +69,7 @@ class WorkPrecision:
         for name, word in (("method", method), ("stabilisation", stabilisation)):
             known = dict.fromkeys(self.table[name].tolist())
             if word not in known:
-                raise _unknown(name, word, known)
+                raise unknown(name, word, known)
         table = self.table
         error = np.maximum(table["error_position"], table["error_velocity"])
         own = (table["method"] == method) & (table["stabilisation"] == stabilisation)

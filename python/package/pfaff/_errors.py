@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ._pfaff import input_code
+from ._pfaff import input_code, nearest
 
 if TYPE_CHECKING:
     from ._run import Run
@@ -103,6 +104,14 @@ def wrong_type(name: str, given: object, needed: str) -> ArgumentError:
     """The exception for an argument of a wrong type: its name, what is given, what is needed."""
     kind = "None" if given is None else f"`{type(given).__name__}`"
     return ArgumentError(*_words(f"{name} is {kind}, need {needed}"))
+
+
+def unknown(what: str, name: str, known: Iterable[str]) -> InputError:
+    """The exception for a name that is none, with all names and the nearest one."""
+    names = list(known)
+    near = nearest(str(name), names)
+    advice = f"; did you mean `{near}`?" if near else ""
+    return wrong(f"there is no {what} `{name}`; there are: {', '.join(names)}{advice}")
 
 
 def _words(message: str) -> tuple[str, str]:

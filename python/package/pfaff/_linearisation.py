@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import json
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from ._answer import Answer
 
 Array = NDArray[np.float64]
 
@@ -14,8 +16,8 @@ Array = NDArray[np.float64]
 class Linearisation:
     """``ẋ = A·x + B·u`` about a state."""
 
-    def __init__(self, text: str) -> None:
-        self.document: dict[str, Any] = json.loads(text)
+    def __init__(self, answer: Answer) -> None:
+        self.document = answer.document
         """The document of ``pfaff linearise --json``."""
         self.states: list[str] = [state["name"] for state in self.document["states"]]
         """Names of the states x: positions, then velocities."""

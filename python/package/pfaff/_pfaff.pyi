@@ -8,62 +8,12 @@ from _typeshed import Incomplete, SupportsGetItem
 from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-__all__ = ["__version__", "Analysis", "Run", "Scene", "Sweep", "_panics", "forget_crashed", "input_code", "merge", "nearest", "sweep_columns", "tolerance", "work_precision"]
+__all__ = ["__version__", "Run", "Scene", "Sweep", "_panics", "forget_crashed", "input_code", "merge", "nearest", "sweep_columns", "work_precision"]
 
 __version__: Final[str]
 """
 The version of the package.
 """
-
-@final
-class Analysis:
-    """
-    An analysed configuration. All answers are documents as JSON.
-    """
-    def along(self, /, t_end: SupportsFloat | SupportsIndex | None) -> str:
-        """
-        The verdicts along the motion.
-        """
-    def check_name(self, /, name: str) -> None:
-        """
-        Refuses the name of a joint or drive that does not exist, with the nearest one.
-        """
-    def combine(self, /, sum: str) -> str:
-        """
-        The verdict on a sum of reactions, with its numbers if they are unique.
-        """
-    def distribution(self, /, choose: SupportsFloat | SupportsIndex | None | SupportsGetItem[int, SupportsIndex] | SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex]]) -> str:
-        """
-        The reactions for a choice.
-        """
-    def document(self, /, combine: SupportsGetItem[int, str]) -> str:
-        """
-        The document that `pfaff analyze --json` writes.
-        """
-    def eliminations(self, /, limit: SupportsIndex) -> str:
-        """
-        The number of sets of rows that can be eliminated, and the first of them.
-        """
-    def make_unique(self, /, name: str, allow: str | SupportsGetItem[int, SupportsIndex]) -> str:
-        """
-        The smallest deletions that make a reaction unique.
-        """
-    def moment(self, /, name: str, about: str | SupportsGetItem[int, SupportsFloat | SupportsIndex]) -> str:
-        """
-        The verdict on the moment of a reaction about a point.
-        """
-    def ranks(self, /) -> tuple[int, int, int]:
-        """
-        Rank, redundancy and mobility.
-        """
-    def state(self, /) -> tuple[list[float], list[float]]:
-        """
-        Coordinates and velocities; these are empty if none are known.
-        """
-    def words(self, /) -> list[tuple[str, str]]:
-        """
-        Name and verdict word of each joint and drive.
-        """
 
 @final
 class Run:
@@ -103,18 +53,10 @@ class Scene:
     The text of a scene. It does not change; what was read from it is kept.
     """
     def __new__(cls, /, name: str, text: str) -> Scene: ...
-    def analyse(self, /, t: SupportsFloat | SupportsIndex, length: SupportsFloat | SupportsIndex | None, angle: SupportsFloat | SupportsIndex | None, drop: SupportsGetItem[int, SupportsIndex] | None, max_memory: SupportsIndex | str | None) -> Analysis:
+    def ask(self, /, question: str, options: str, others: SupportsGetItem[int, Scene], common: Incomplete, files: bool) -> tuple[str, list[tuple[str, bytes]]]:
         """
-        Analyses a configuration.
-        """
-    def ask(self, /, question: str, options: str, other: Scene | None) -> str:
-        """
-        Asks a question by its name about this scene and perhaps another one, with its options as a
-        JSON object; returns the document.
-        """
-    def check(self, /, max_memory: SupportsIndex | str | None) -> None:
-        """
-        Reads and assembles the scene; raises what is wrong with it.
+        Asks a question by its name about this scene and perhaps others, with its options as a JSON
+        object; returns the document, and the files if they are asked for.
         """
     @staticmethod
     def from_file(path: str | PathLike[str]) -> Scene:
@@ -139,17 +81,22 @@ class Scene:
         The name that the scene gives itself, the names of its bodies, and of its joints and drives
         in the order of the rows.
         """
-    def simulate(self, /, options: Incomplete, numbers_of_choice: bool, choices: SupportsGetItem[int, SupportsFloat | SupportsIndex | None | SupportsGetItem[int, SupportsIndex] | SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex]]], on_event: Any | None, on_row: Any | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> Run:
+    def simulate(self, /, options: Incomplete, numbers_of_choice: bool, choices: SupportsGetItem[int, str], on_event: Any | None, on_row: Any | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> Run:
         """
         Runs the scene. With `numbers_of_choice` numbers that are not determined on their stretch of
         the run are those of the rows that the run keeps, otherwise NaN; `choices` have arrays of
         their own. `drives` are functions of time, measure and rate in place of laws, `forces`
         functions of the states of bodies, each with its name.
         """
-    def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete, choices: SupportsGetItem[int, SupportsFloat | SupportsIndex | None | SupportsGetItem[int, SupportsIndex] | SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex]]], until: SupportsFloat | SupportsIndex | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> str:
+    def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete, choices: SupportsGetItem[int, str], until: SupportsFloat | SupportsIndex | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> str:
         """
         Runs the scene and writes the files of the command into a directory; returns the summary.
         With `until` the run ends at the row of this time (s), as one that was asked to end there.
+        """
+    def state(self, /, t: SupportsFloat | SupportsIndex, common: Incomplete, drop: SupportsGetItem[int, SupportsIndex] | None) -> tuple[list[float], list[float]]:
+        """
+        Coordinates and velocities at a time of the motion; the velocities are empty if none are
+        known.
         """
     @property
     def text(self, /) -> str: ...
@@ -220,12 +167,6 @@ def sweep_columns(directory: str | PathLike[str]) -> tuple[str, list[tuple[str, 
     """
     The summary of what is in a directory, and its columns: counts as whole numbers, or with NaN if
     some are unknown, numbers, and lists of texts.
-    """
-
-def tolerance(scene: Scene, options: Incomplete) -> tuple[str, list[tuple[str, list[str] | Incomplete]]]:
-    """
-    Makes samples of the data within their tolerances. Returns the document of
-    `pfaff tolerance --json`, and the columns of `tolerance.csv`.
     """
 
 def work_precision(scene: Scene, quick: bool, all: bool) -> str:

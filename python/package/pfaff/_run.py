@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _pfaff
-from ._errors import ComputationError, wrong
+from ._errors import ComputationError, unknown
 
 if TYPE_CHECKING:
     from ._scene import Scene
@@ -63,13 +63,13 @@ class _Columns:
     def __getitem__(self, column: str) -> Array:
         """The values of one number."""
         if column not in self._numbers:
-            raise _unknown(f"number of `{self.name}`", column, self._numbers)
+            raise unknown(f"number of `{self.name}`", column, self._numbers)
         return self._table[:, self._numbers[column]]
 
     def _of(self, columns: Sequence[str]) -> Array:
         places = [self._numbers[column] for column in columns if column in self._numbers]
         if not places:
-            raise _unknown(f"number of `{self.name}`", columns[0], self._numbers)
+            raise unknown(f"number of `{self.name}`", columns[0], self._numbers)
         return self._table[:, places[0] : places[-1] + 1]
 
 
@@ -308,7 +308,7 @@ class Run:
         ):
             if heading in headings:
                 return table[:, headings.index(heading)]
-        raise _unknown("column", heading, [*self.columns, *self.reaction_columns])
+        raise unknown("column", heading, [*self.columns, *self.reaction_columns])
 
     def __len__(self) -> int:
         return len(self.t)
@@ -337,12 +337,5 @@ def _grouped(
 
 def _named(what: str, name: str, known: dict[str, _C]) -> _C:
     if name not in known:
-        raise _unknown(what, name, known)
+        raise unknown(what, name, known)
     return known[name]
-
-
-def _unknown(what: str, name: str, known: Iterable[str]) -> Exception:
-    names = list(known)
-    near = _pfaff.nearest(str(name), names)
-    advice = f"; did you mean `{near}`?" if near else ""
-    return wrong(f"there is no {what} `{name}`; there are: {', '.join(names)}{advice}")

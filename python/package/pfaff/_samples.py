@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import json
+import csv
+import io
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._run import _unknown
+from ._errors import unknown
 
 if TYPE_CHECKING:
-    from ._scene import Scene
+    from ._answer import Answer
 
 Values = NDArray[Any]
 
@@ -20,18 +21,20 @@ Values = NDArray[Any]
 class Samples:
     """Samples of a scene whose data vary within their tolerances."""
 
-    def __init__(self, scene: Scene, document: str, columns: list[tuple[str, Any]]) -> None:
-        self.scene = scene
+    def __init__(self, answer: Answer) -> None:
+        self.scene = answer.scene
         """The scene."""
-        self.document: dict[str, Any] = json.loads(document)
+        self.document = answer.document
         """The document of ``pfaff tolerance --json``."""
         self.table: dict[str, Values] = {}
         """The columns of ``tolerance.csv``: numbers, or words for ``status`` and verdicts.
 
         What does not exist in a sample is NaN.
         """
-        for name, values in columns:
-            self.table.setdefault(name, np.asarray(values))
+        rows = csv.reader(io.StringIO(answer.files["tolerance.csv"].decode()))
+        headings = next(rows)
+        for name, column in zip(headings, zip(*rows), strict=False):
+            self.table.setdefault(name, _values(column))
         self.table["sample"] = self.table["sample"].astype(np.int64)
         self._seal()
 
@@ -56,7 +59,7 @@ class Samples:
     def __getitem__(self, column: str) -> Values:
         """The values of a column, one for each sample."""
         if column not in self.table:
-            raise _unknown("column", column, self.table)
+            raise unknown("column", column, self.table)
         return self.table[column]
 
     def to_pandas(self) -> Any:
@@ -90,3 +93,11 @@ class Samples:
     def __repr__(self) -> str:
         assembled = self.document["assembled"]
         return f"<pfaff.Samples: {len(self)}, of which {assembled} could be assembled>"
+
+
+def _values(column: tuple[str, ...]) -> Values:
+    """Numbers, or words if one of them is none."""
+    try:
+        return np.array([float(cell) for cell in column], dtype=np.float64)
+    except ValueError:
+        return np.array(column)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, NamedTuple, TypeGuard
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,21 +13,17 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arguments as arguments
 from . import _pfaff
 from . import _toml as toml
-from ._analysis import Analysis
+from ._answer import Answer, Common
+from ._choices import Choice, dropped, of_run
 from ._comparison import WorkPrecision
 from ._errors import wrong, wrong_type
 from ._functions import BodyForce, DriveLaw, of_bodies, of_drives
-from ._linearisation import Linearisation
+from ._questions import Questions
 from ._run import Event, Run
 from .cluster import SweepResult, Vary, sweep
-from ._samples import Samples
 
 Array = NDArray[np.float64]
-Choice = Sequence[int] | str | Mapping[str, float | tuple[float, float]]
-"""Rows to drop, from 1; ``"kept-rows"``; ``"minimum-norm"`` or ``"minimum-norm:length=L"``;
-compliances (m/N, or with rad/(N·m)) of joints by name."""
 Bodies = Sequence[str] | str
-NativeChoice = float | None | list[int] | list[tuple[str, float, float]]
 
 
 class Matrices(NamedTuple):
@@ -47,7 +43,7 @@ class Matrices(NamedTuple):
     """What the holonomic rows miss."""
 
 
-class Scene:
+class Scene(Questions):
     """A mechanism as a text in the format of scenes. It does not change.
 
     Methods that add something return a new scene, and write what they are given into its text; the
@@ -243,40 +239,6 @@ class Scene:
 
     # What is computed.
 
-    def check(self, *, max_memory: int | str | None = None) -> Scene:
-        """Reads and assembles the scene, and returns it; raises everything that is wrong.
-
-        ``max_memory`` is a number of bytes, or a text as ``"4GB"``: computations that need more
-        are refused before they begin (P0007). By default it is the memory that the machine has
-        left. Other methods with this option do the same.
-        """
-        self._of.check(arguments.maybe(arguments.size, "max_memory", max_memory))
-        return self
-
-    def analyze(
-        self,
-        t: float = 0.0,
-        *,
-        tolerance: float | None = None,
-        angle_tolerance: float | None = None,
-        drop: Iterable[int] | None = None,
-        max_memory: int | str | None = None,
-    ) -> Analysis:
-        """The verdicts at a time of the motion (s); at 0 no run is needed.
-
-        ``tolerance`` (m) and ``angle_tolerance`` (rad) say what the numbers of the scene are known
-        to, in place of those of the scene. ``drop`` are the rows to take as the dependent ones,
-        from 1.
-        """
-        asked = (
-            arguments.number("t", t, "a time (s)"),
-            arguments.maybe(arguments.number, "tolerance", tolerance),
-            arguments.maybe(arguments.number, "angle_tolerance", angle_tolerance),
-            arguments.maybe(arguments.rows, "drop", drop),
-            arguments.maybe(arguments.size, "max_memory", max_memory),
-        )
-        return Analysis(self, asked)
-
     def simulate(
         self,
         t_end: float | None = None,
@@ -329,10 +291,10 @@ class Scene:
             tolerance=tolerance,
             angle_tolerance=angle_tolerance,
             max_memory=max_memory,
-            drop=_drop(choose),
+            drop=dropped(choose),
             reactions=_wanted(reactions),
         )
-        kept, choices = _chosen(choose)
+        kept, choices = of_run(choose)
         if on_row is not None:
             arguments.function("on_row", on_row, "the time")
         if on_event is not None:
@@ -417,7 +379,7 @@ class Scene:
     ) -> Matrices:
         """C, M, Γ, Q, b and Φ at coordinates and velocities, those of the start by default.
 
-        C and M are dense: with more than ``max_memory`` they are refused (see :meth:`check`).
+        C and M are dense: with more than ``max_memory`` they are refused.
         """
         c, mass, gamma, q_applied, b, phi = self._of.matrices(
             _numbers("q", q),
@@ -427,103 +389,18 @@ class Scene:
         )
         return Matrices(c, np.diag(mass), gamma, q_applied, b, phi)
 
-    def linearise(
-        self, t: float = 0.0, *, coordinates: Iterable[str] = (), follow: Iterable[str] = ()
-    ) -> Linearisation:
-        """Small motions about a state at rest or a steady one, as ``pfaff linearise``."""
-        options = {
-            "at_time": arguments.number("t", t, "a time (s)"),
-            "coordinates": arguments.texts("coordinates", coordinates),
-            "follow": arguments.texts("follow", follow),
-        }
-        return Linearisation(self._ask("linearise", options))
-
-    def equilibrium(self, *, stable: bool = False) -> dict[str, Any]:
-        """A start at rest: where forces balance near the described start.
-
-        The document of ``pfaff equilibrium --json``: places, stability, and reactions, each a value
-        with its verdict. ``stable`` leaves places that are not stable by a small push, and searches
-        on.
-        """
-        return self._document("equilibrium", {"stable": bool(stable)})
-
-    def plan(
+    def _asked(
         self,
-        *,
-        vary: Iterable[str] = (),
-        t_end: float | None = None,
-        method: str | None = None,
-        drop: Iterable[int] | None = None,
-    ) -> dict[str, Any]:
-        """What a run of the scene computes and omits, and why, as ``pfaff plan --json``.
-
-        With ``vary``, as ``"body.crank.mass=1:2:11"``, also how the runs of such a sweep are
-        evaluated.
-        """
-        run = {
-            "t_end": arguments.maybe(arguments.number, "t_end", t_end),
-            "method": method,
-            "drop": None if drop is None else [int(row) for row in drop],
-        }
-        return self._document("plan", {"vary": arguments.texts("vary", vary), "run": run})
-
-    def diff(self, other: Scene) -> dict[str, Any]:
-        """The differences to another scene: ranks, verdicts, dependencies, motion.
-
-        The document of ``pfaff diff --json``.
-        """
-        return self._document("diff", {}, other)
-
-    def summary(self) -> dict[str, Any]:
-        """What the scene is, once it is assembled: the document of ``pfaff check --json``."""
-        return self._document("check", {})
-
-    def _document(
-        self, question: str, options: Mapping[str, Any], other: Scene | None = None
-    ) -> dict[str, Any]:
-        document: dict[str, Any] = json.loads(self._ask(question, options, other))
-        return document
-
-    def _ask(
-        self, question: str, options: Mapping[str, Any], other: Scene | None = None
-    ) -> str:
-        about = None if other is None else other._of
-        return self._of.ask(question, json.dumps(options), about)
-
-    def tolerance(
-        self,
-        runs: int = 1000,
-        *,
-        seed: int = 1,
-        t: float = 0.0,
-        vary: Mapping[str, str | float] | None = None,
-        tolerance: float | None = None,
-        angle_tolerance: float | None = None,
-        threads: int | None = None,
-        max_memory: int | str | None = None,
-    ) -> Samples:
-        """Samples of the data within their tolerances, as ``pfaff tolerance``.
-
-        Each point, direction and number of joints is somewhere within its tolerance: those of the
-        scene, or ``tolerance`` (m) and ``angle_tolerance`` (rad). Each of ``runs`` such mechanisms
-        is assembled and analysed at a time ``t`` of the motion (s). ``vary`` are numbers that vary
-        besides, by their keys: ``{"body.crank.mass": "±2%"}``, or a number that is the largest
-        change. The same ``seed`` gives the same samples, whatever the ``threads``.
-        """
-        by = arguments.named("vary", {} if vary is None else vary, _change, "changes by key")
-        options = {
-            "runs": arguments.count("runs", runs),
-            "seed": arguments.count("seed", seed),
-            "t": arguments.number("t", t, "a time (s)"),
-            "vary": list(by.items()),
-            "tolerance": arguments.maybe(arguments.number, "tolerance", tolerance),
-            "angle_tolerance": arguments.maybe(
-                arguments.number, "angle_tolerance", angle_tolerance
-            ),
-            "threads": arguments.maybe(arguments.count, "threads", threads),
-            "max_memory": arguments.maybe(arguments.size, "max_memory", max_memory),
-        }
-        return Samples(self, *_pfaff.tolerance(self._of, options))
+        question: str,
+        options: dict[str, Any],
+        common: Common,
+        others: Iterable[Questions] = (),
+        files: bool = False,
+    ) -> Answer:
+        about = [arguments.instance("other", other, Scene)._of for other in others]
+        words = json.dumps(options)
+        document, made = self._of.ask(question, words, about, common.checked(), files)
+        return Answer(self, options, common, json.loads(document), dict(made))
 
     def work_precision(self, *, quick: bool = False, all: bool = False) -> WorkPrecision:
         """Runs by every method at many tolerances, as ``pfaff work-precision``.
@@ -568,13 +445,6 @@ def _options(**options: Any) -> dict[str, Any]:
     }
 
 
-def _change(name: str, given: Any) -> str:
-    """A change as the library reads it: a text, or the largest change."""
-    if isinstance(given, str):
-        return given
-    return f"±{arguments.number(name, given, 'a text as `±2%`, or the largest change')!r}"
-
-
 def _known(options: Mapping[str, Any]) -> None:
     """An unknown option is refused as an unknown keyword."""
     known = [*_CHECKS, "choices", "drives", "forces"]
@@ -585,65 +455,12 @@ def _known(options: Mapping[str, Any]) -> None:
             raise TypeError(f"there is no option `{name}`{advice}")
 
 
-def _is_rows(choose: object) -> TypeGuard[Sequence[int]]:
-    if isinstance(choose, (str, Mapping)) or not isinstance(choose, Iterable):
-        return False
-    return all(isinstance(row, (int, np.integer)) for row in choose)
-
-
-def _drop(choose: Choice | Sequence[Choice] | None) -> list[int] | None:
-    """Rows that the run drops."""
-    return [int(row) for row in choose] if _is_rows(choose) else None
-
-
-def _chosen(choose: Choice | Sequence[Choice] | None) -> tuple[bool, list[NativeChoice]]:
-    """Whether numbers are those of the rows that the run keeps, and the other choices."""
-    if choose is None:
-        return False, []
-    if _is_rows(choose) or choose == "kept-rows":
-        return True, []
-    if isinstance(choose, (str, Mapping)):
-        return False, [_native(choose)]
-    needed = "a choice, or a list of choices"
-    return False, arguments.listed("choose", choose, lambda _, one: _native(one), needed)
-
-
-def _native(choose: Choice) -> NativeChoice:
-    """A choice as the library takes it."""
-    if isinstance(choose, Mapping):
-        soft = arguments.named("choose", choose, _compliance, "compliances")
-        return [(name, along, turn) for name, (along, turn) in soft.items()]
-    if _is_rows(choose):
-        return [int(row) for row in choose]
-    if choose == "minimum-norm":
-        return None
-    if isinstance(choose, str) and choose.startswith("minimum-norm:length="):
-        try:
-            return float(choose.partition("=")[2])
-        except ValueError:
-            pass
-    raise wrong(
-        f"choose is `{choose}`, need `minimum-norm`, `minimum-norm:length=L`, rows to drop, as"
-        " [6, 21], or compliances by name; alone also `kept-rows`"
-    )
-
-
-def _compliance(name: str, given: Any) -> tuple[float, float]:
-    """Compliances along a line and of a rotation (m/N, rad/(N·m))."""
-    needed = "a compliance (m/N), or a pair with that of rotation"
-    both = given if isinstance(given, tuple) else (given, 0.0)
-    if len(both) != 2:
-        raise wrong_type(name, given, needed)
-    along, turn = (arguments.number(name, x, needed) for x in both)
-    return along, turn
-
-
 def _choose(options: dict[str, Any]) -> None:
     """Puts rows to drop and other choices in place of ``choose``."""
     if "choose" in options:
         choose = options.pop("choose")
-        options["drop"] = _drop(choose)
-        options["choices"] = _chosen(choose)[1]
+        options["drop"] = dropped(choose)
+        options["choices"] = of_run(choose)[1]
 
 
 def _wanted(reactions: bool | Iterable[str]) -> list[str] | None:

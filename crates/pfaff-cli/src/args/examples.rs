@@ -18,6 +18,7 @@ Build with --release, and keep the machine idle: seconds are compared.";
 
 pub(super) const SCHEMA: &str = "Examples:
   pfaff schema > pfaff.schema.json
+  pfaff schema analyze                          keys of the document of `pfaff analyze --json`
 
 Editors with Taplo (Even Better TOML in VS Code, taplo lsp elsewhere) read it where this is the first line of a scene beside it:
   #:schema ./pfaff.schema.json

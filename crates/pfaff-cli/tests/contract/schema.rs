@@ -41,12 +41,15 @@ fn the_help_says_how_an_editor_uses_it() {
 }
 
 #[test]
-fn it_takes_no_arguments() {
+fn it_also_describes_answers() {
     let output = pfaff(&["schema", "robot.toml"]);
     assert_eq!(output.status.code(), Some(2));
+    let refused = stderr(&output);
     assert!(
-        stderr(&output).contains("unexpected argument 'robot.toml'"),
-        "{}",
-        stderr(&output)
+        refused.contains("invalid value 'robot.toml'") && refused.contains("analyze"),
+        "{refused}"
     );
+    let output = pfaff(&["schema", "equilibrium"]);
+    let schema: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(schema["properties"]["stability"]["type"], "string");
 }

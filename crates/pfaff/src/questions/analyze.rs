@@ -27,6 +27,7 @@ use crate::words::Block;
 
 /// Rank, redundancy, and the verdict of every reaction
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("analyze/examples.txt")))]
@@ -45,6 +46,10 @@ pub struct Analyze {
     /// Rows to take as the dependent ones, counted from 1
     // In the program they are counted from 0.
     #[serde(deserialize_with = "crate::run_options::rows")]
+    #[cfg_attr(
+        feature = "schema",
+        schemars(with = "Option<Vec<std::num::NonZeroUsize>>")
+    )]
     #[cfg_attr(feature = "command", arg(long, value_name = "ROWS", value_delimiter = ',', value_parser = crate::run_options::row))]
     pub drop: Option<Vec<usize>>,
     /// A sum of components to judge, as "W3.N + W4.N"; may be given several times
@@ -107,6 +112,7 @@ const STATED: &str = "stated";
 
 /// How far the motion is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "TimeOrWord")]
 pub enum Along {
     /// As far as the scene states.
@@ -128,6 +134,7 @@ impl FromStr for Along {
 }
 
 #[derive(Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 enum TimeOrWord {
     Time(f64),
@@ -147,6 +154,7 @@ impl TryFrom<TimeOrWord> for Along {
 
 impl Question for Analyze {
     const NAME: &'static str = "analyze";
+    const SCHEMA: &'static str = include_str!("analyze/answer.schema.json");
     type Subject<'s> = &'s Start<'s>;
     type Answer = AnalyzeAnswer;
 
@@ -173,10 +181,12 @@ impl Question for Analyze {
             }
         };
         match judged {
-            Judged::Moves(study) => self.of_study(of, study, control),
+            Judged::Moves(study) => self.of_study(of, (judged, study), control),
             // A mechanism that cannot move can still be judged at the start.
             Judged::Stands(stands) if self.at_time == 0.0 && self.along.is_none() => {
-                let start = judged.configuration().map_err(|e| of.refusal(e))?;
+                let start = of
+                    .configuration(judged, |_| ())
+                    .map_err(|e| of.refusal(e))?;
                 let mut document = document::of(self, of, &start)?;
                 document.warnings.insert(0, stands.warning.clone());
                 Ok(AnalyzeAnswer {
@@ -193,15 +203,18 @@ impl Analyze {
     fn of_study(
         &self,
         of: &Start<'_>,
-        study: &Study,
+        (judged, study): (&Judged, &Study),
         control: &Control<'_>,
     ) -> Result<AnalyzeAnswer, Refusal> {
         let description = &study.scene.description;
         let joints = description.joints().chain(description.drives()).count();
         let drop = self.drop.as_deref();
         let of_configuration = || {
-            let judged = |done| (control.progress)(Progress::Count("joints", done, joints));
-            let found = study.analyse_with_progress(self.at_time, drop, judged);
+            let progress = |done| (control.progress)(Progress::Count("joints", done, joints));
+            let found = match (self.at_time, drop) {
+                (0.0, None) => of.configuration(judged, progress),
+                (time, drop) => study.analyse_with_progress(time, drop, progress),
+            };
             let configuration = found.map_err(|e| of.refusal(e))?;
             let document = document::of(self, of, &configuration)?;
             Ok::<_, Refusal>((configuration, document))
@@ -256,6 +269,7 @@ fn judge(
 
 /// An analysed configuration.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct AnalyzeAnswer {
     /// Ranks, verdicts, reasons, and answers to the options.

@@ -16,6 +16,7 @@ use crate::start::{Judged, Start};
 
 /// Read and assemble only: report every error of the file, with its place
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("check/examples.txt")))]
@@ -26,6 +27,7 @@ const FRAGILE_TOLD: usize = 10;
 
 impl Question for Check {
     const NAME: &'static str = "check";
+    const SCHEMA: &'static str = include_str!("check/answer.schema.json");
     type Subject<'s> = &'s Start<'s>;
     type Answer = CheckAnswer;
 
@@ -33,7 +35,7 @@ impl Question for Check {
         let judged = of.judged(control)?;
         let answered = match judged.as_ref() {
             Judged::Moves(study) => study.check_drives().and_then(|()| {
-                let start = study.analyse(0.0, None)?;
+                let start = of.configuration(&judged, |_| ())?;
                 let prepared = &study.prepared;
                 let answer = CheckAnswer::new(judged.parts(), &prepared.assembly.correction);
                 let mut answer = answer.moving(&start.freedoms()?, &prepared.mechanism);

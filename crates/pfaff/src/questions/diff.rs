@@ -15,6 +15,7 @@ use crate::words::Block;
 
 /// Compare two scenes: ranks, verdicts, dependencies, motion
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("diff/examples.txt")))]
@@ -22,15 +23,15 @@ pub struct Diff {}
 
 impl Question for Diff {
     const NAME: &'static str = "diff";
+    const SCHEMA: &'static str = include_str!("diff/answer.schema.json");
     type Subject<'s> = [&'s Start<'s>; 2];
     type Answer = DiffAnswer;
 
     fn answer(&self, of: [&Start<'_>; 2], control: &Control<'_>) -> Result<DiffAnswer, Refusal> {
         let judged = [of[0].judged(control)?, of[1].judged(control)?];
         let document = |k: usize| {
-            let document = judged[k]
-                .configuration()
-                .and_then(|start| document_of(&start));
+            let start = of[k].configuration(&judged[k], |_| ());
+            let document = start.and_then(|start| document_of(&start));
             document.map_err(|e| of[k].refusal(e))
         };
         let documents = [document(0)?, document(1)?];

@@ -21,6 +21,7 @@ use crate::words::Block;
 
 /// A start at rest: where forces balance near the described start
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("equilibrium/examples.txt")))]
@@ -38,6 +39,7 @@ const DOCUMENT: &str = "equilibrium.json";
 
 impl Question for Equilibrium {
     const NAME: &'static str = "equilibrium";
+    const SCHEMA: &'static str = include_str!("equilibrium/answer.schema.json");
     const OUTPUT: Option<Output> = Some(Output {
         family: Family(&[SCENE, DOCUMENT]),
         contents: "a scene that starts there, at rest",

@@ -18,6 +18,7 @@ use crate::words::Block;
 
 /// Small motions about a state at rest or a steady one: matrices, eigenvalues, modes
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("linearise/examples.txt")))]
@@ -57,6 +58,7 @@ const DOCUMENT: &str = "linearisation.json";
 
 impl Question for Linearise {
     const NAME: &'static str = "linearise";
+    const SCHEMA: &'static str = include_str!("linearise/answer.schema.json");
     const OUTPUT: Option<Output> = Some(Output {
         family: Family(&[
             "a.csv",

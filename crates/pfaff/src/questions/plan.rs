@@ -16,12 +16,14 @@ use crate::words::Block;
 
 /// What a run of the scene computes and omits, and why
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("plan/examples.txt")))]
 pub struct Plan {
     /// Also say how the runs of a sweep with these values are evaluated: as of `sweep`
     #[cfg_attr(feature = "command", arg(long, value_name = "KEY=VALUES"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub vary: Vec<Axis>,
     /// The run
     #[cfg_attr(feature = "command", command(flatten))]
@@ -30,6 +32,7 @@ pub struct Plan {
 
 impl Question for Plan {
     const NAME: &'static str = "plan";
+    const SCHEMA: &'static str = include_str!("plan/answer.schema.json");
     type Subject<'s> = &'s Start<'s>;
     type Answer = PlanAnswer;
 

@@ -21,6 +21,7 @@ use crate::words::Block;
 
 /// Motion and reactions, written into a directory with a report for any browser
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("simulate/examples.txt")))]
@@ -35,6 +36,7 @@ pub struct Simulate {
 
 impl Question for Simulate {
     const NAME: &'static str = "simulate";
+    const SCHEMA: &'static str = include_str!("simulate/answer.schema.json");
     const OUTPUT: Option<Output> = Some(Output {
         family: FAMILY,
         contents: "the results",
@@ -80,6 +82,7 @@ impl Question for Simulate {
 
 /// A run.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SimulateAnswer {
     /// Its summary.

@@ -19,6 +19,7 @@ use crate::words::Block;
 
 /// Data within their tolerances: how far verdicts, reactions and places hold
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("tolerance/examples.txt")))]
@@ -29,6 +30,7 @@ pub struct Tolerance {
     /// A parameter or number of the scene that varies besides, and by how much: KEY=±VALUE or
     /// KEY=±P%; may be given several times
     #[cfg_attr(feature = "command", arg(long, value_name = "KEY=±VALUE"))]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub vary: Vec<Variation>,
     /// Another seed gives other samples
     #[cfg_attr(feature = "command", arg(long, value_name = "S", default_value_t = 1))]
@@ -63,6 +65,7 @@ const PAGE: &str = "tolerance.html";
 
 impl Question for Tolerance {
     const NAME: &'static str = "tolerance";
+    const SCHEMA: &'static str = include_str!("tolerance/answer.schema.json");
     const OUTPUT: Option<Output> = Some(Output {
         family: Family(&[TABLE, DOCUMENT, PAGE]),
         contents: "the samples as a table, the document, and a page",
@@ -121,6 +124,7 @@ impl Question for Tolerance {
 
 /// What samples say together.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ToleranceAnswer {
     /// Verdicts, ranges and places.

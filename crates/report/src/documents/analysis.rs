@@ -37,6 +37,7 @@ use super::{FreedomsDocument, from_one};
 
 /// Ranks and verdicts of one configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct AnalysisDocument {
     /// What was judged.
@@ -73,6 +74,7 @@ pub struct AnalysisDocument {
 
 /// What was judged: a mechanism at a time, and its size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ConfigurationDocument {
     /// Name of the scene.
@@ -95,6 +97,7 @@ pub struct ConfigurationDocument {
 
 /// The rank of C, and what follows from it alone.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct RanksDocument {
     /// r = rank C
@@ -123,6 +126,7 @@ pub struct RanksDocument {
 
 /// Why reactions are not unique.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ReasonsDocument {
     /// Minimal sets of dependent rows.
@@ -133,6 +137,7 @@ pub struct ReasonsDocument {
 
 /// Answers to questions that not every analysis is asked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct AnswersDocument {
     /// What may be deleted without a change of motion.
@@ -155,6 +160,7 @@ pub struct AnswersDocument {
 
 /// Sets of joints on common cycles that were analysed separately.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PartsDocument {
     /// Number of sets.
@@ -165,6 +171,7 @@ pub struct PartsDocument {
 
 /// A minimal set of dependent rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct DependencyDocument {
     /// Rows of C.
@@ -187,6 +194,7 @@ pub struct DependencyDocument {
 
 /// Joints and drives whose reactions are coupled.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct MixingDocument {
     /// Their names.

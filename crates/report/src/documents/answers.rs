@@ -6,6 +6,7 @@ use serde::Serialize;
 
 /// Reason why there is no result.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RefusalDocument<'a, P> {
     /// `false`
     pub ok: bool,
@@ -19,6 +20,7 @@ pub struct RefusalDocument<'a, P> {
 
 /// Codes of errors and warnings with what they mean.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CodesDocument {
     /// `true`
     pub ok: bool,
@@ -37,6 +39,7 @@ impl CodesDocument {
 
 /// What one code means.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CodeDocument {
     code: Code,
     title: &'static str,
@@ -66,6 +69,7 @@ impl From<&Entry> for CodeDocument {
 
 /// The summary of a run whose process was ended before it could write its own.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EndedDocument {
     /// Name of the scene.
     pub scene: String,
@@ -79,6 +83,7 @@ pub struct EndedDocument {
 
 /// A picture that was written.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ViewDocument<'a> {
     /// `true`
     pub ok: bool,
@@ -108,6 +113,7 @@ pub struct ViewDocument<'a> {
 
 /// A template that was written.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NewDocument<'a> {
     /// `true`
     pub ok: bool,
@@ -119,6 +125,7 @@ pub struct NewDocument<'a> {
 
 /// A scene that was made of a file of another format.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ImportDocument<'a> {
     /// Whether the scene that was written has no error.
     pub ok: bool,
@@ -142,6 +149,7 @@ pub struct ImportDocument<'a> {
 
 /// Something of a file that its scene does not contain.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OmissionDocument<'a> {
     /// What kind of thing.
     pub kind: &'a str,
@@ -155,6 +163,7 @@ pub struct OmissionDocument<'a> {
 
 /// All templates.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TemplatesDocument<'a> {
     /// `true`
     pub ok: bool,
@@ -164,6 +173,7 @@ pub struct TemplatesDocument<'a> {
 
 /// A template.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TemplateDocument<'a> {
     /// Its name.
     pub name: &'a str,

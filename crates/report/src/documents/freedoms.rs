@@ -8,6 +8,7 @@ use super::Named;
 
 /// Free motions, and the mechanism without its drives.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct FreedomsDocument {
     /// Rank, redundancy and free motions without the drives; `null` if there are no drives.
@@ -29,6 +30,7 @@ pub struct FreedomsDocument {
 
 /// The mechanism without its drives.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct WithoutDrivesDocument {
     /// Number of drives.
@@ -48,6 +50,7 @@ pub struct WithoutDrivesDocument {
 
 /// A free motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct FreeMotionDocument {
     /// Description.
@@ -61,6 +64,7 @@ pub struct FreeMotionDocument {
 
 /// Freedoms that are only counted.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct LeftOutDocument {
     /// Their number.

@@ -8,6 +8,7 @@ use super::Named;
 
 /// The impulse of a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ImpulseDocument {
     /// Its components that are not identically zero, and the named one of its definition, at this

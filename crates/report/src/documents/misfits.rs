@@ -12,6 +12,7 @@ use super::from_one;
 
 /// The largest misfit of a dropped row.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct MisfitDocument {
     /// The row, from 1.
@@ -85,6 +86,7 @@ impl fmt::Display for MisfitDocument {
 
 /// How far the motions on two choices of kept rows part.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SpreadDocument {
     /// The rows deleted by the other choice, from 1.

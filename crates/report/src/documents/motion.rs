@@ -9,6 +9,7 @@ use super::{Named, RunDocument};
 
 /// A run and its rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct MotionDocument {
     /// The content of `summary.json`.
@@ -38,6 +39,7 @@ impl MotionDocument {
 
 /// State and reactions at one time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct MomentDocument {
     /// Time (s).

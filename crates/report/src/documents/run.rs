@@ -57,6 +57,7 @@ pub enum Ending<'a> {
 
 /// Numbers, events and verdicts of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct RunDocument {
     /// Integrator; `auto` if components have different ones.
@@ -132,6 +133,7 @@ pub struct RunDocument {
 
 /// Numbers of a component that was run separately.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ComponentRunDocument {
     /// Its bodies as text.
@@ -162,6 +164,7 @@ pub struct ComponentRunDocument {
 
 /// An event.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct EventDocument {
     /// Time (s).
@@ -184,6 +187,7 @@ pub struct EventDocument {
 
 /// The choice by which the numbers of a table were made, on an interval of time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ChoiceDocument {
     /// The table; absent if there is one only.
@@ -205,6 +209,7 @@ pub struct ChoiceDocument {
 
 /// Rows of a table at which a choice selects no solution.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Gap {
     /// How many there are.
     pub rows: usize,

@@ -7,6 +7,7 @@ use solvability::{GroupSensitivities, Sensitivities, Sensitivity};
 /// How strongly a unique reaction, component, direction, sum or moment depends on the data, and
 /// whether it is fragile.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SensitivityDocument {
     /// Largest change of the number when one point moves by 1e-4 of the size, or by its tolerance,

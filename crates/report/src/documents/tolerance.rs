@@ -6,6 +6,7 @@ use super::Named;
 
 /// The document of `tolerance --json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ToleranceDocument {
     /// Name of the scene.
     pub scene: String,
@@ -42,6 +43,7 @@ pub struct ToleranceDocument {
 
 /// What samples are drawn from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DrawnDocument {
     /// Samples that were asked for.
     pub samples: u64,
@@ -63,6 +65,7 @@ pub struct DrawnDocument {
 
 /// A number of the scene that varies.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct VariedDocument {
     /// Its key.
     pub key: String,
@@ -72,6 +75,7 @@ pub struct VariedDocument {
 
 /// Samples with the same reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FailureDocument {
     /// Why they could not be assembled.
     pub reason: String,
@@ -85,6 +89,7 @@ pub struct FailureDocument {
 
 /// The described mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DescribedDocument {
     /// Number of rows.
     pub rows: usize,
@@ -101,6 +106,7 @@ pub struct DescribedDocument {
 
 /// Samples of one rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RankCountDocument {
     /// Rank of all rows.
     pub rank: usize,
@@ -114,6 +120,7 @@ pub struct RankCountDocument {
 
 /// What a row misses.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RowMisfitDocument {
     /// The row, from 1.
     pub row: usize,
@@ -133,6 +140,7 @@ pub struct RowMisfitDocument {
 
 /// A joint or drive in all samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ReactionRangeDocument {
     /// Its name.
     pub name: String,
@@ -156,6 +164,7 @@ pub struct ReactionRangeDocument {
 
 /// Numbers of samples by verdict.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct VerdictCounts {
     /// Unique.
     pub unique: u64,
@@ -167,6 +176,7 @@ pub struct VerdictCounts {
 
 /// A number of a reaction in all samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct QuantityRangeDocument {
     /// The component, or `|F|` or `|T|`.
     pub name: &'static str,
@@ -190,6 +200,7 @@ pub struct QuantityRangeDocument {
 
 /// A number in all samples that have it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RangeDocument {
     /// Number of samples.
     pub samples: u64,
@@ -211,6 +222,7 @@ pub struct RangeDocument {
 
 /// Numbers of values in intervals of the same width.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct HistogramDocument {
     /// Beginning of the first interval.
     pub from: f64,
@@ -224,6 +236,7 @@ pub struct HistogramDocument {
 
 /// How far a body is from where it is described.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MovedDocument {
     /// Mean distance of its frame (m).
     pub mean: f64,
@@ -235,6 +248,7 @@ pub struct MovedDocument {
 
 /// Where a marker is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MarkerRangeDocument {
     /// With the data as described (m).
     pub described: Vec<f64>,
@@ -250,6 +264,7 @@ pub struct MarkerRangeDocument {
 
 /// Values of a measure.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MeasureRangeDocument {
     /// Its unit.
     pub unit: &'static str,

@@ -15,6 +15,7 @@ use crate::tables::{Quantity, ReactionColumn};
 
 /// The verdict of a number over a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct TrackDocument {
     /// `unique` if it is on all stretches; `not_unique` if it is not on one; else `undecided`.
@@ -58,6 +59,7 @@ impl From<&VerdictTrack> for TrackDocument {
 
 /// The verdict of a joint or drive over a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct RunReactionDocument {
     /// The verdict over the run; absent if no reactions were asked for.
@@ -85,6 +87,7 @@ impl RunReactionDocument {
 
 /// A component of a reaction, or a number of a group, over a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct RunNumberDocument {
     /// The verdict over the run.
@@ -100,6 +103,7 @@ pub struct RunNumberDocument {
 
 /// A peak.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PeakDocument {
     /// The value with its sign (N, N·m), and its verdict there.
@@ -113,6 +117,7 @@ pub struct PeakDocument {
 
 /// The verdict of a group over a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct RunGroupDocument {
     /// The verdict over the run.
@@ -131,6 +136,7 @@ pub struct RunGroupDocument {
 
 /// An instant with another verdict than its stretch.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SpecialDocument {
     /// Time (s).

@@ -9,6 +9,7 @@ const NAMED: usize = 10;
 
 /// Summary of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SweepDocument {
     /// Name of the scene.
     pub scene: String,
@@ -53,6 +54,7 @@ pub enum Extent {
 
 /// A run that failed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SweepFailure {
     /// Its number, from 1.
     pub run: u64,

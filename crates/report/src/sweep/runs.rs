@@ -99,6 +99,17 @@ impl fmt::Display for Runs {
     }
 }
 
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Runs {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Runs".into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        <[u64; 2]>::json_schema(generator)
+    }
+}
+
 /// As `[first, last]`.
 impl Serialize for Runs {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer};
 
 /// Names the choice that a number depends on.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Label(Arc<str>);
 
 impl fmt::Display for Label {

@@ -7,6 +7,7 @@ use serde::Serialize;
 /// Reactions of connected bodies that have no finite value, because the loads push along a freedom
 /// that second order excludes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct NoFiniteReaction {
     /// The joints and drives.

@@ -11,6 +11,7 @@ use crate::words::{Block, count};
 
 /// A scene that was read and assembled.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct CheckAnswer {
     /// `true`

@@ -10,6 +10,7 @@ use super::comparison::Comparison;
 
 /// Comparison of two scenes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DiffAnswer {
     /// `true`
     pub ok: bool,
@@ -91,6 +92,7 @@ fn in_short(names: [&str; 2]) -> [String; 2] {
 
 /// One of two scenes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct DiffSide {
     /// Its name.
@@ -138,6 +140,7 @@ impl DiffSide {
 
 /// A joint or drive of one of two scenes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct DiffReaction {
     /// Its name, unless the object that contains it gives the name.
@@ -193,6 +196,7 @@ fn said(r: &ReactionDocument) -> String {
 
 /// A joint or drive that both scenes have.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DiffChange {
     /// Its name.
     pub name: String,
@@ -204,6 +208,7 @@ pub struct DiffChange {
 
 /// Differences of two motions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DiffMotion {
     /// How far both were run (s): to the earlier of their ends.
     pub t_end: f64,
@@ -213,6 +218,7 @@ pub struct DiffMotion {
 
 /// The largest differences of the motions of a body, and when (s).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DiffBody {
     /// The body.
     pub body: String,

@@ -11,6 +11,7 @@ use crate::study::Study;
 
 /// A place of rest.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct EquilibriumAnswer {
     /// Name of the scene.
@@ -57,6 +58,7 @@ pub struct EquilibriumAnswer {
 
 /// A body at rest.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct RestingBody {
     /// Distance of the origin of its frame from the start (m).
@@ -69,6 +71,7 @@ pub struct RestingBody {
 
 /// A reaction at rest.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ReactionAtRest {
     /// Its verdict.

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 /// A linearised motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct LineariseAnswer {
     /// Name of the scene.
@@ -42,6 +43,7 @@ pub struct LineariseAnswer {
 
 /// A state.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct NamedState {
     /// Body and coordinate.
@@ -52,6 +54,7 @@ pub struct NamedState {
 
 /// An input.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct NamedInput {
     /// The drive or force.
@@ -62,6 +65,7 @@ pub struct NamedInput {
 
 /// Matrices of `M·ÿ + D·ẏ + K·y`, by rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SecondOrderMatrices {
     /// M.
@@ -74,6 +78,7 @@ pub struct SecondOrderMatrices {
 
 /// A mode. Of a conjugate pair the eigenvalue with the positive imaginary part is listed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ModeOfMotion {
     /// Real part of the eigenvalue (1/s).

@@ -8,6 +8,7 @@ use serde::Serialize;
 
 /// What a run computes and omits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PlanAnswer {
     /// Name of the scene.
@@ -31,6 +32,7 @@ pub struct PlanAnswer {
 
 /// Bodies that affect each other.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PlannedComponent {
     /// Its bodies as text, as used in decisions.
@@ -55,6 +57,7 @@ pub struct PlannedComponent {
 
 /// One decision.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PlannedDecision {
     /// The component to which it applies, if there are several.
@@ -72,6 +75,7 @@ pub struct PlannedDecision {
 
 /// The computations that a decision saves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PlannedSaving {
     /// Number of omitted items.

@@ -10,6 +10,7 @@ use crate::documents::{Named, SpecialDocument, TrackDocument};
 
 /// The verdicts of a motion by stretches of time, and its singular configurations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct AlongDocument {
     /// Last time that was analysed (s); the first is 0.
@@ -39,6 +40,7 @@ pub struct AlongDocument {
 
 /// The rank that holds almost everywhere.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct GenericRankDocument {
     /// An instant at which it holds (s).
@@ -51,6 +53,7 @@ pub struct GenericRankDocument {
 
 /// The verdict of a joint or drive over a motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct AlongReactionDocument {
     /// The verdict over the motion.
@@ -63,6 +66,7 @@ pub struct AlongReactionDocument {
 
 /// A stretch of time with another rank.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct StretchDocument {
     /// Time at which it begins (s).
@@ -77,6 +81,7 @@ pub struct StretchDocument {
 
 /// An instant at which the configuration is singular, or nearly so.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PassageDocument {
     /// Time (s).
@@ -105,6 +110,7 @@ pub struct PassageDocument {
 
 /// How a motion continues at a singular configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ContinuationDocument {
     /// `unique`, `bifurcation` or `undetermined`.
@@ -117,6 +123,7 @@ pub struct ContinuationDocument {
 
 /// One verdict that differs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct DifferenceDocument {
     /// Name of the joint or drive.

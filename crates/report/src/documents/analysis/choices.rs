@@ -7,6 +7,7 @@ use solvability::{Distribution, Nature, UnitCheck, Value};
 
 /// The reactions for one choice.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct DistributionDocument {
     /// Name of the choice.
@@ -22,6 +23,7 @@ pub struct DistributionDocument {
 
 /// The reaction of a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ValuesDocument {
     /// Its name.
@@ -32,6 +34,7 @@ pub struct ValuesDocument {
 
 /// A number with its verdict.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ValueDocument {
     /// Name of the component; absent for multipliers.

@@ -9,6 +9,7 @@ use solvability::Analysis;
 
 /// Tolerances of the data, and what depends on them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct DataDocument {
     /// The tolerance that the scene states for points and lengths (m); `None` if only their

@@ -8,6 +8,7 @@ use crate::documents::from_one;
 
 /// Sets of rows that can be deleted without a change of motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct EliminationsDocument {
     /// Number of sets; `None` if they could not be counted.
@@ -22,6 +23,7 @@ pub struct EliminationsDocument {
 
 /// The smallest deletions that make a reaction unique.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct MakeUniqueDocument {
     /// Name of the joint or drive.
@@ -41,6 +43,7 @@ pub struct MakeUniqueDocument {
 
 /// One way to make a reaction unique.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct WayDocument {
     /// Rows to delete.

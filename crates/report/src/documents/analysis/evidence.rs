@@ -6,6 +6,7 @@ use solvability::{Analysis, Generic, PartAnalysis};
 
 /// Evidence for a rank.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct EvidenceDocument {
     /// `decided` or `undecided`.
@@ -46,6 +47,7 @@ pub struct EvidenceDocument {
 
 /// A decided rank with σ_r below 1e-3: reactions are of size 1/σ_r per unit of load.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct NearlyRedundantDocument {
     /// σ_r
@@ -62,6 +64,7 @@ const MICROMETRE: f64 = 1e-6;
 
 /// Ranks at other configurations of the same component.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct GenericDocument {
     /// Degree of redundancy at almost all configurations.
@@ -72,6 +75,7 @@ pub struct GenericDocument {
 
 /// Another configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PointDocument {
     /// Time (s).

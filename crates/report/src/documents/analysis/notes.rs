@@ -11,6 +11,7 @@ const NAMED: usize = 12;
 
 /// A note for readers of some reactions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct NoteDocument {
     /// The joints concerned.

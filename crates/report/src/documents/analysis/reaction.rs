@@ -13,6 +13,7 @@ use crate::documents::{SensitivityDocument, VerdictDocument};
 
 /// The verdict on a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ReactionDocument {
     /// Its name.
@@ -73,6 +74,7 @@ pub struct ReactionDocument {
 
 /// The verdict on a moment about a point.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct MomentAboutDocument {
     /// The point (m), ground axes.
@@ -83,6 +85,7 @@ pub struct MomentAboutDocument {
 
 /// The verdict of a multiplier.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct RowDocument {
     /// Row of C.
@@ -94,6 +97,7 @@ pub struct RowDocument {
 
 /// The verdict of a component of a reaction or of a sum.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ComponentDocument {
     /// `Fx`, `Fy` or `T`; in space `Fx` to `Tz`; or the named component of a definition.
@@ -113,6 +117,7 @@ pub struct ComponentDocument {
 /// Load on a joint in a self-stress, scaled for drawing: the largest force of the self-stress is 1
 /// N, or its largest torque is 1 N·m if there is no force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct FreeDirectionDocument {
     /// Index of the self-stress in `dependencies`, from 0.
@@ -127,6 +132,7 @@ pub struct FreeDirectionDocument {
 
 /// A torque: a number in the plane, where it has one direction only.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum TorqueDocument {
     /// T
@@ -142,6 +148,7 @@ pub(super) fn components(space: SpaceKind, vector: [f64; 3]) -> Vec<f64> {
 
 /// The verdicts of a reaction in one frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct FrameDocument {
     /// `global`, `first_body`, `joint` or `edge`.
@@ -154,6 +161,7 @@ pub struct FrameDocument {
 
 /// The verdict of a combination of reactions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct GroupDocument {
     /// Its name or expression.

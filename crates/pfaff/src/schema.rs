@@ -1,0 +1,65 @@
+//! Questions and answers as JSON schemas, for programs that write interfaces of them.
+
+use report::documents::FORMAT;
+use schemars::generate::SchemaSettings;
+use schemars::transform::{Transform, transform_subschemas};
+use schemars::{JsonSchema, Schema, json_schema};
+
+use crate::question::Question;
+
+/// A question and its answer as JSON schemas.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct QuestionSchema {
+    /// Its name.
+    pub name: &'static str,
+    /// Its options.
+    pub options: Schema,
+    /// Its document.
+    pub answer: Schema,
+}
+
+impl QuestionSchema {
+    /// Those of one question.
+    pub(crate) fn of<Q: Question<Answer: JsonSchema> + JsonSchema>() -> Self {
+        let settings = SchemaSettings::draft2020_12;
+        let read = settings().for_deserialize().into_generator();
+        let written = settings().for_serialize().into_generator();
+        let mut answer = written.into_root_schema_for::<Q::Answer>();
+        Unknown.transform(&mut answer);
+        add_head(&mut answer);
+        Self {
+            name: Q::NAME,
+            options: read.into_root_schema_for::<Q>(),
+            answer,
+        }
+    }
+}
+
+/// What stands at the head of every document, and of one that is not whole.
+fn add_head(document: &mut Schema) {
+    let head = json_schema!({
+        "format": { "const": FORMAT, "description": "Number of the format of documents" },
+        "version": { "type": "string", "description": "Version of the program" },
+        "code": { "type": "string", "description": "Why the document is not whole, as a code" },
+        "error": { "type": "string", "description": "Why the document is not whole" },
+    });
+    let none = || json_schema!({}).to_value();
+    let entries = document.ensure_object();
+    let own = entries.entry("properties").or_insert_with(none);
+    if let (Some(own), Some(head)) = (own.as_object_mut(), head.as_object()) {
+        own.extend(head.clone());
+    }
+}
+
+/// JSON has no NaN and no infinity: any number of a document may be `null`.
+struct Unknown;
+
+impl Transform for Unknown {
+    fn transform(&mut self, schema: &mut Schema) {
+        if schema.get("type").is_some_and(|kind| kind == "number") {
+            schema.insert("type".to_owned(), ["number", "null"].as_slice().into());
+        }
+        transform_subschemas(self, schema);
+    }
+}

@@ -1,0 +1,59 @@
+"""Choices of reactions that are not unique, as the command writes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, TypeGuard
+
+import numpy as np
+
+from . import _arguments as arguments
+from ._errors import wrong_type
+
+Choice = Sequence[int] | str | Mapping[str, float | tuple[float, float]]
+"""Rows to drop, from 1; ``"kept-rows"``; ``"minimum-norm"`` or ``"minimum-norm:length=L"``;
+compliances (m/N, or with rad/(N·m)) of joints by name."""
+
+
+def is_rows(choose: object) -> TypeGuard[Sequence[int]]:
+    """Whether a choice is rows to drop."""
+    if isinstance(choose, (str, Mapping)) or not isinstance(choose, Iterable):
+        return False
+    return all(isinstance(row, (int, np.integer)) for row in choose)
+
+
+def as_words(choose: Choice) -> str:
+    """A choice as the command writes it."""
+    if isinstance(choose, str):
+        return choose
+    if isinstance(choose, Mapping):
+        soft = arguments.named("choose", choose, _compliance, "compliances")
+        return "compliance:" + ",".join(f"{name}={words}" for name, words in soft.items())
+    return "drop:" + ",".join(map(str, arguments.rows("choose", choose)))
+
+
+def _compliance(name: str, given: Any) -> str:
+    """Compliances along a line and of a rotation (m/N, rad/(N·m))."""
+    needed = "a compliance (m/N), or a pair with that of rotation"
+    both = given if isinstance(given, tuple) else (given, 0.0)
+    if len(both) != 2:
+        raise wrong_type(name, given, needed)
+    along, turn = (arguments.number(name, x, needed) for x in both)
+    return f"{along!r}/{turn!r}"
+
+
+def of_run(choose: Choice | Sequence[Choice] | None) -> tuple[bool, list[str]]:
+    """Whether numbers are those of the rows that the run keeps, and the other choices."""
+    if choose is None:
+        return False, []
+    if is_rows(choose) or (isinstance(choose, str) and choose == "kept-rows"):
+        return True, []
+    if isinstance(choose, (str, Mapping)):
+        return False, [as_words(choose)]
+    needed = "a choice, or a list of choices"
+    return False, arguments.listed("choose", choose, lambda _, one: as_words(one), needed)
+
+
+def dropped(choose: Choice | Sequence[Choice] | None) -> list[int] | None:
+    """Rows that a run drops."""
+    return [int(row) for row in choose] if is_rows(choose) else None

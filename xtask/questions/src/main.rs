@@ -1,0 +1,143 @@
+//! Writes what follows from the list of questions: the JSON schema of each answer, the methods of
+//! the Python package, and the tables of options in the book. `cargo xtask questions` runs it; with
+//! `--check` it compares what is there.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+mod book;
+mod option;
+mod python;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::{env, fs};
+
+use clap::{Command, Subcommand};
+use pfaff::questions::Questions;
+use serde_json::Value;
+
+use option::QuestionOption;
+
+/// A question as it is known from outside.
+struct Question {
+    /// Subcommand and method.
+    name: &'static str,
+    /// What it answers, in a line.
+    about: String,
+    options: Vec<QuestionOption>,
+    /// Names of the scenes that it is asked about.
+    scenes: &'static [&'static str],
+    /// What its files contain, if it has any.
+    files: Option<&'static str>,
+    /// Whether its files are written while the answer is computed.
+    streams: bool,
+    /// JSON schema of the answer.
+    answer: Value,
+}
+
+/// All questions, in the order of the list.
+fn questions() -> Vec<Question> {
+    let mut program = Questions::augment_subcommands(Command::new("pfaff"));
+    // Numbers of values and defaults are known from then on.
+    program.build();
+    let schemas = Questions::schemas().into_iter();
+    let questions = schemas.zip(Questions::FACTS).map(|(schema, facts)| {
+        let command = program.find_subcommand(schema.name);
+        let command = command.expect("each question is a subcommand");
+        let about = command.get_about().map(ToString::to_string);
+        let arguments = command.get_arguments();
+        let arguments = arguments.filter(|argument| argument.get_id() != "help");
+        let options = schema.options.to_value();
+        Question {
+            name: schema.name,
+            about: about.unwrap_or_default(),
+            options: arguments
+                .map(|argument| QuestionOption::new(argument, &options))
+                .collect(),
+            scenes: facts.scenes,
+            files: facts.output.map(|output| output.contents),
+            streams: facts.output.is_some_and(|output| output.streams.is_some()),
+            answer: schema.answer.to_value(),
+        }
+    });
+    questions.collect()
+}
+
+/// The root of the repository.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// All files that follow from the list, by their paths from the root, with their texts.
+fn files() -> Result<Vec<(String, String)>, String> {
+    let questions = questions();
+    let mut files = Vec::new();
+    for question in &questions {
+        let folder = question.name.replace('-', "_");
+        let path = format!("crates/pfaff/src/questions/{folder}/answer.schema.json");
+        let text = serde_json::to_string_pretty(&question.answer).map_err(|e| e.to_string())?;
+        files.push((path, text + "\n"));
+    }
+    files.push((python::PATH.to_owned(), python::module(&questions)));
+    let book = fs::read_to_string(root().join(book::PATH));
+    let book = book.map_err(|e| format!("{}: {e}", book::PATH))?;
+    files.push((book::PATH.to_owned(), book::with_tables(&book, &questions)?));
+    Ok(files)
+}
+
+/// Writes the files.
+fn write() -> Result<String, String> {
+    let files = files()?;
+    for (path, text) in &files {
+        fs::write(root().join(path), text).map_err(|e| format!("{path}: {e}"))?;
+    }
+    Ok(format!("{} files written", files.len()))
+}
+
+/// Compares the files.
+fn check() -> Result<String, String> {
+    let files = files()?;
+    for (path, text) in &files {
+        let found = fs::read_to_string(root().join(path)).map_err(|e| format!("{path}: {e}"))?;
+        let found = found.replace("\r\n", "\n");
+        if found != *text {
+            let same = found.lines().zip(text.lines()).take_while(|(a, b)| a == b);
+            let line = same.count() + 1;
+            return Err(format!(
+                "{path}:{line}: does not follow from the list of questions; `cargo xtask questions` writes it anew"
+            ));
+        }
+    }
+    Ok(format!(
+        "{} files follow from the list of questions",
+        files.len()
+    ))
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    let outcome = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => write(),
+        ["--check"] => check(),
+        _ => Err("usage: cargo xtask questions [--check]".to_owned()),
+    };
+    match outcome {
+        Ok(done) => {
+            println!("{done}");
+            ExitCode::SUCCESS
+        }
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn everything_follows_from_the_list_of_questions() {
+        if let Err(message) = super::check() {
+            panic!("{message}");
+        }
+    }
+}
