@@ -2,7 +2,7 @@
 //! derived by hand.
 
 use model::{Description, Function, Mechanism, Scratch, StartOptions, System};
-use rank::{Limits, Settled};
+use rank::{Limits, StructureVerdict};
 use solvability::{
     Allowed, Solvability, analyse_by_cycles, decide, explain, make_unique, structure,
 };
@@ -150,7 +150,11 @@ fn structure_settles_the_trolley_and_parts_agree_with_the_whole() {
     let turned = steered(0.02);
     let found = structure(&turned.mechanism, &turned.s, &turned.q).expect("C is finite");
     for name in ["A", "W5"] {
-        assert_eq!(found.groups[id(&turned, name).0], Settled::Peeled, "{name}");
+        assert_eq!(
+            found.groups[id(&turned, name).0],
+            StructureVerdict::Peeled,
+            "{name}"
+        );
     }
     let mut two = cranks(&[0.0, 1.0, 1.7], 0.5, 1.0);
     let other = cranks(&[5.0, 6.0], 0.5, 0.0);
@@ -186,7 +190,7 @@ fn structure_settles_the_trolley_and_parts_agree_with_the_whole() {
                 .expect("rows exist")
                 .verdict;
             assert_eq!(part.wrench.verdict.word(), whole.word(), "{}", group.name);
-            if !matches!(settled, Settled::Open(_)) {
+            if !matches!(settled, StructureVerdict::Open(_)) {
                 assert_eq!(whole.word(), "unique", "{}", group.name);
             }
         }

@@ -13,7 +13,7 @@ use model::codes::Code;
 use model::space::norm;
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Layout, Mechanism, Scratch, SpaceKind, System};
-use rank::{Circuit, Settled};
+use rank::{Circuit, StructureVerdict};
 
 use crate::directions::readable;
 use crate::loads::{self, Told};
@@ -34,7 +34,7 @@ pub struct Explanation {
     pub reactions: Vec<ReactionExplanation>,
     /// Joints and drives whose reactions are unique because of the structure alone, with the
     /// reason.
-    pub settled: Vec<(ConstraintId, Settled)>,
+    pub settled: Vec<(ConstraintId, StructureVerdict)>,
 }
 
 /// Loads that joints can put on each other while the total force on each body is zero.
@@ -208,7 +208,7 @@ pub fn explain(
         .layout()
         .constraint_ids()
         .zip(structure.groups)
-        .filter(|(id, why)| !matches!(why, Settled::Open(_)) && is_unique(id));
+        .filter(|(id, why)| !matches!(why, StructureVerdict::Open(_)) && is_unique(id));
     Ok(Explanation {
         stresses,
         mixing,
