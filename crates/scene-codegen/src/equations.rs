@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use joints::recorded::{Operation, Recorded};
+use joints::recorded::{Operation, RecordedNumber};
 use model::record::Input;
 use model::{RecordedEquations, System};
 use symbolic::{Function, Graph, Program, Value};
@@ -188,10 +188,10 @@ pub(crate) fn results<'v>(
     values: &'v [Value],
 ) -> (
     Vec<Vec<Value>>,
-    impl Fn(&[Recorded]) -> Vec<Value> + use<'v>,
+    impl Fn(&[RecordedNumber]) -> Vec<Value> + use<'v>,
 ) {
     let zero = code.program.number(0.0);
-    let row = |entries: &Vec<(usize, Recorded)>| {
+    let row = |entries: &Vec<(usize, RecordedNumber)>| {
         let mut row = vec![zero; recording.force.len()];
         for (column, r) in entries {
             row[*column] = code.program.add(row[*column], values[r.place()]);
@@ -199,12 +199,16 @@ pub(crate) fn results<'v>(
         row
     };
     let c = recording.c.iter().map(row).collect();
-    let of = |list: &[Recorded]| list.iter().map(|r| values[r.place()]).collect();
+    let of = |list: &[RecordedNumber]| list.iter().map(|r| values[r.place()]).collect();
     (c, of)
 }
 
 /// A number of a recording.
-fn number(recording: &RecordedEquations, numbers: &HashMap<usize, Value>, at: Recorded) -> Number {
+fn number(
+    recording: &RecordedEquations,
+    numbers: &HashMap<usize, Value>,
+    at: RecordedNumber,
+) -> Number {
     let known = || Number::Known(recording.number(at.place()).unwrap_or(f64::NAN));
     numbers
         .get(&at.place())
@@ -222,7 +226,7 @@ pub(crate) fn replay(
     let p = &mut code.program;
     let mut values: Vec<Value> = Vec::with_capacity(recording.beside.first);
     for (place, operation) in recording.tape[..recording.beside.first].iter().enumerate() {
-        let of = |r: Recorded| values[r.place()];
+        let of = |r: RecordedNumber| values[r.place()];
         let value = match *operation {
             Operation::Number(x) => match numbers.get(&place) {
                 Some(input) => *input,

@@ -279,7 +279,7 @@ impl<'s> Search<'s> {
     fn described_place(&self, recording: &RecordedEquations, place: usize) -> String {
         let mechanism = &self.prepared.mechanism;
         let space = mechanism.space();
-        let at = |list: &[joints::Recorded]| list.iter().position(|r| r.place() == place);
+        let at = |list: &[joints::RecordedNumber]| list.iter().position(|r| r.place() == place);
         if let Some(column) = at(&recording.beside.mass) {
             let (body, direction) = mechanism.coordinate(column);
             return if space.is_rotation(column) {

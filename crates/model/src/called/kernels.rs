@@ -1,7 +1,7 @@
 //! The kernels of a called wrench, in the plane and in space.
 
 use joints::spec::{ForceSpec, Parameter, Shape, Spec, Unit};
-use joints::{Definition, ForceElement, Plane, Recorded, Space, Space3, plane, space3};
+use joints::{Definition, ForceElement, Plane, RecordedNumber, Space, Space3, plane, space3};
 
 use super::{BodyState, CalledWrench, Wrench};
 use crate::element::ForceKernels;
@@ -135,10 +135,10 @@ macro_rules! force_kernels {
             /// A function that is called cannot be recorded: generators of code refuse it.
             fn recorded_q(
                 &self,
-                _: &[<$space as Space>::Pose<Recorded>],
-                _: &[<$space as Space>::Twist<Recorded>],
-                _: &[[Recorded; 3]],
-                out: &mut [Recorded],
+                _: &[<$space as Space>::Pose<RecordedNumber>],
+                _: &[<$space as Space>::Twist<RecordedNumber>],
+                _: &[[RecordedNumber; 3]],
+                out: &mut [RecordedNumber],
             ) {
                 out.fill(f64::NAN.into());
             }

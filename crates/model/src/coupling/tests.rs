@@ -5,7 +5,7 @@ use joints::space3::{
     Axes, CylindricalAngleDrive, CylindricalDisplacementDrive, DistanceLengthDrive, Pose,
     RevoluteAngleDrive, Twist,
 };
-use joints::{Constraint, ConstraintKernels, Sloped, Space3};
+use joints::{Constraint, ConstraintKernels, SlopedOutputs, Space3};
 
 use super::*;
 use crate::BodyRef::{Body, Ground};
@@ -357,7 +357,7 @@ fn derivatives_by_data_agree_with_differences() {
             (0..numbers.len()).map(along).collect()
         };
         let mut found = vec![0.0; numbers.len()];
-        let by_data = kernels.slopes(&x, &given(kernels, &x), Sloped::All(&v));
+        let by_data = kernels.slopes(&x, &given(kernels, &x), SlopedOutputs::All(&v));
         by_data.phi(&[1.3], &mut found);
         let expected = slopes(&|case| 1.3 * case.phi(&x));
         close(&found, &expected, &format!("coupling {number}: ∂(λᵀΦ)/∂p"));

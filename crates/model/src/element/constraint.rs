@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use joints::space3::{Pose, Twist};
 use joints::spec::ConstraintSpec;
-use joints::{Magnitude, Sloped, Slopes, Space3};
+use joints::{Magnitude, SlopedOutputs, Slopes, Space3};
 
 use super::slots::{Kinematics, Rates, Site, Slots};
 use super::{AnyConstraint, Bodies, BodySpace, stored, with};
@@ -224,14 +224,14 @@ impl PlacedConstraint {
     /// The derivatives of Φ with respect to its numbers.
     pub(crate) fn slopes_of_phi(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
-            element.slopes(self.site.x::<S>(s), self.site.f(s), Sloped::Phi)
+            element.slopes(self.site.x::<S>(s), self.site.f(s), SlopedOutputs::Phi)
         })
     }
 
     /// The derivatives of C.
     pub(crate) fn slopes_of_c(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
-            element.slopes(self.site.x::<S>(s), self.site.f(s), Sloped::C)
+            element.slopes(self.site.x::<S>(s), self.site.f(s), SlopedOutputs::C)
         })
     }
 
@@ -239,7 +239,7 @@ impl PlacedConstraint {
     pub(crate) fn slopes(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
             let v = self.site.v::<S>(&s.rates);
-            element.slopes(self.site.x::<S>(s), self.site.f(s), Sloped::All(v))
+            element.slopes(self.site.x::<S>(s), self.site.f(s), SlopedOutputs::All(v))
         })
     }
 

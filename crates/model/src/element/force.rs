@@ -2,7 +2,7 @@
 
 use joints::space3::{Pose, Twist};
 use joints::spec::ForceSpec;
-use joints::{Recorded, Space3};
+use joints::{RecordedNumber, Space3};
 
 use super::recorded::RecordedSlots;
 use super::slots::{Site, Slots};
@@ -198,7 +198,7 @@ impl PlacedForce {
         })
     }
 
-    pub(crate) fn recorded_q(&self, at: &RecordedSlots, out: &mut [Recorded]) {
+    pub(crate) fn recorded_q(&self, at: &RecordedSlots, out: &mut [RecordedNumber]) {
         if let Some((turned, kernels)) = self.between() {
             let (x, v, f) = at.of::<Space3>(&self.site);
             return turned.recorded_q(kernels, (x, v), f, out);

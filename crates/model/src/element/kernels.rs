@@ -2,8 +2,8 @@
 
 use joints::spec::{ConstraintSpec, ForceSpec};
 use joints::{
-    Constraint, ConstraintKernels, Force, ForceElement, Plane, Recorded, Ring, Rows, Scalar, Space,
-    Space3,
+    Constraint, ConstraintKernels, Force, ForceElement, Plane, RecordedNumber, Ring, Rows, Scalar,
+    Space, Space3,
 };
 
 use crate::body::{BodyRef, DescribedBody};
@@ -163,7 +163,7 @@ impl Evaluated for f64 {
     }
 }
 
-impl Evaluated for Recorded {
+impl Evaluated for RecordedNumber {
     fn stored_by<S: Space>(
         kernels: &dyn ConstraintKernels<S>,
         number: impl Fn(f64, usize) -> Self,
@@ -206,10 +206,10 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
     /// Entries of Q by numbers that record their operations.
     fn recorded_q(
         &self,
-        x: &[S::Pose<Recorded>],
-        v: &[S::Twist<Recorded>],
-        f: &[[Recorded; 3]],
-        out: &mut [Recorded],
+        x: &[S::Pose<RecordedNumber>],
+        v: &[S::Twist<RecordedNumber>],
+        f: &[[RecordedNumber; 3]],
+        out: &mut [RecordedNumber],
     );
     /// A copy.
     fn boxed(&self) -> Box<dyn ForceKernels<S>>;
@@ -249,12 +249,12 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
 impl<K: Force<S>, S: BodySpace> ForceKernels<S> for K {
     fn recorded_q(
         &self,
-        x: &[S::Pose<Recorded>],
-        v: &[S::Twist<Recorded>],
-        f: &[[Recorded; 3]],
-        out: &mut [Recorded],
+        x: &[S::Pose<RecordedNumber>],
+        v: &[S::Twist<RecordedNumber>],
+        f: &[[RecordedNumber; 3]],
+        out: &mut [RecordedNumber],
     ) {
-        self.element::<Recorded>().q(x, v, f, out);
+        self.element::<RecordedNumber>().q(x, v, f, out);
     }
     fn boxed(&self) -> Box<dyn ForceKernels<S>> {
         Box::new(self.clone())

@@ -8,7 +8,9 @@
 //! is C/s. For a distance, s = |d|/L.
 
 use joints::spec::{ConstraintSpec, ForceSpec};
-use joints::{Constraint, ConstraintKernels, Definition, ForceElement, Plane, Recorded, Space3};
+use joints::{
+    Constraint, ConstraintKernels, Definition, ForceElement, Plane, RecordedNumber, Space3,
+};
 
 use super::number::Smooth;
 use super::{DriveForce, Law, LawError};
@@ -293,10 +295,10 @@ macro_rules! force_kernels {
         impl ForceKernels<$space> for LawDrive<$space> {
             fn recorded_q(
                 &self,
-                x: &[PoseOf<$space, Recorded>],
-                v: &[TwistOf<$space, Recorded>],
-                f: &[[Recorded; 3]],
-                out: &mut [Recorded],
+                x: &[PoseOf<$space, RecordedNumber>],
+                v: &[TwistOf<$space, RecordedNumber>],
+                f: &[[RecordedNumber; 3]],
+                out: &mut [RecordedNumber],
             ) {
                 self.entries(x, v, f, out);
             }

@@ -1,7 +1,7 @@
 //! Numbers on which laws are evaluated: doubles, dual numbers, and numbers that record their
 //! operations.
 
-use joints::{Real, Recorded};
+use joints::{Real, RecordedNumber};
 
 use crate::called::{Called, DriveState};
 
@@ -152,7 +152,7 @@ impl Smooth for f64 {
 }
 
 /// Records arithmetic and roots; all else is NaN: generators of code refuse laws.
-impl Number for Recorded {
+impl Number for RecordedNumber {
     fn number(self) -> Option<f64> {
         None
     }
@@ -166,7 +166,7 @@ impl Number for Recorded {
     }
 }
 
-impl Smooth for Recorded {
+impl Smooth for RecordedNumber {
     fn slope(self, f: Function) -> Self {
         arithmetic_slope(self, f).unwrap_or_else(|| Self::from(f64::NAN))
     }
