@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use dynamics::plan::{Plan, Wanted};
 use dynamics::{MotionFault, MotionOptions, Sample};
-use model::{ConstraintId, Known, Mechanism, Registry, System};
+use model::{ConfigurationAccuracy, ConstraintId, Mechanism, Registry, System};
 use pfaff::{RunOptions, Study};
 use solvability::{
     CARRIED_VECTORS, Choice, Compliance, NormWeights, Questions, ReactionVerdict, Solution,
@@ -120,7 +120,8 @@ fn compare(
     sample: &mut Sample<'_, '_>,
 ) -> Result<usize, MotionFault> {
     let (t, q) = (sample.t, sample.q.to_vec());
-    let analysis = analyse_known(mechanism, t, &q, Known::To(1e-8)).expect("decided");
+    let analysis =
+        analyse_known(mechanism, t, &q, ConfigurationAccuracy::To(1e-8)).expect("decided");
     let analysis = Arc::new(analysis);
     let questions = Questions::new(mechanism, &q, Arc::clone(&analysis));
     let solution = Solution {

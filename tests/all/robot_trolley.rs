@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
-use model::{Function, Known, Mechanism, Reaction, Registry, StartOptions, System};
+use model::{ConfigurationAccuracy, Function, Mechanism, Reaction, Registry, StartOptions, System};
 use pfaff::{AssembledScene, RunOptions};
 use serde::Deserialize;
 use solvability::{Analysis, Solvability, analyse, analyse_known};
@@ -316,7 +316,8 @@ fn steered_edges_at_a_right_angle_split_the_circuits() {
         })
         .expect("the robot steers at rest");
         // The displacement is accurate to 13 digits, and so are the angles of the edges.
-        let analysis = analyse_known(&p.mechanism, 1.0, &q, Known::To(1e-12)).expect("C is finite");
+        let analysis = analyse_known(&p.mechanism, 1.0, &q, ConfigurationAccuracy::To(1e-12))
+            .expect("C is finite");
         assert_eq!(non_unique_rows(&analysis), [3, 5, 18, 19, 20, 21]);
         assert_eq!(analysis.decision.rank, 20);
         let components = rank::components(&analysis.whole().expect("one part"));

@@ -4,7 +4,7 @@
 use dynamics::{MotionError, MotionOptions, Prepared, RowChoice};
 use dynamics::{prepare_after, start_velocity, unmovable};
 use model::start::assemble;
-use model::{Assembly, Known, Mechanism, Registry, StartError, Tolerance};
+use model::{Assembly, ConfigurationAccuracy, Mechanism, Registry, StartError, Tolerance};
 use scene::Scene;
 use solvability::{ConstraintLevel, State};
 
@@ -216,7 +216,7 @@ impl AssembledScene {
             &self.mechanism,
             0.0,
             state,
-            Known::AsStored,
+            ConfigurationAccuracy::AsStored,
             drop.map_or(AskedRows::Any, AskedRows::Dropped),
             progress,
         )?;

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use linalg::Matrix;
 use model::start::scene_size;
-use model::{ConstraintId, Known, Mechanism, System, is_at_rest};
+use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System, is_at_rest};
 use rank::Limits;
 use scene::Scene;
 use solvability::{
@@ -88,7 +88,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         mechanism: &'a Mechanism,
         t: f64,
         state: State,
-        known: Known,
+        known: ConfigurationAccuracy,
         rows: AskedRows<'_>,
         progress: impl Fn(usize) + Sync,
     ) -> Result<Self, StudyError> {

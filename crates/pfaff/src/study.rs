@@ -13,8 +13,8 @@ use dynamics::{
 };
 use model::start::assemble;
 use model::{
-    AnyDescription, ConstraintId, FramePose, Known, Reaction, Registry, StartError, StartPose,
-    System,
+    AnyDescription, ConfigurationAccuracy, ConstraintId, FramePose, Reaction, Registry, StartError,
+    StartPose, System,
 };
 use report::documents::{
     DataDocument, Gap, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument,
@@ -192,8 +192,8 @@ impl Study {
         let mechanism = &self.prepared.mechanism;
         // Later configurations are only as accurate as the motion that has reached them.
         let known = match t {
-            0.0 => Known::AsStored,
-            _ => Known::To(self.motion_to(t).rtol),
+            0.0 => ConfigurationAccuracy::AsStored,
+            _ => ConfigurationAccuracy::To(self.motion_to(t).rtol),
         };
         let rows = match (drop, &self.prepared.decided) {
             (Some(drop), _) => AskedRows::Dropped(drop),

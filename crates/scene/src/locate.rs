@@ -7,7 +7,9 @@ use dynamics::{MotionError, MotionFault};
 use joints::is_usable;
 use model::codes::Code;
 use model::start::VelocityConflict;
-use model::{AnyDescription, BodyRecord, BodyRef, BuildError, RowLabel, StartError, Stated};
+use model::{
+    AnyDescription, BodyRecord, BodyRef, BuildError, RowLabel, StartError, ToleranceScope,
+};
 
 use crate::diagnostic::Diagnostic;
 use crate::source_map::{BODY_KEYS, Entry, PLACE_KEYS, SourceMap};
@@ -79,12 +81,12 @@ pub(crate) fn build(map: &SourceMap, d: &AnyDescription, error: &BuildError) -> 
         BuildError::Tolerance { of, field, value } => {
             let key = field.replace(' ', "_");
             let span = match of {
-                Stated::Scene => map.section("scene", &key),
-                Stated::Body(body) => {
+                ToleranceScope::Scene => map.section("scene", &key),
+                ToleranceScope::Body(body) => {
                     body_key(map, d, body, field, |x| x.to_bits() == value.to_bits())
                 }
-                Stated::Marker(name) => place_key(map, name, &[&key]),
-                Stated::Joint(name) | Stated::Drive(name) => {
+                ToleranceScope::Marker(name) => place_key(map, name, &[&key]),
+                ToleranceScope::Joint(name) | ToleranceScope::Drive(name) => {
                     element_key(map, name, &[&key, "joint"])
                 }
             };

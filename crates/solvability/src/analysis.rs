@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use linalg::{Matrix, Scaling};
 use model::start::scene_size;
-use model::{ConstraintId, Known, Mechanism, System, Tolerance};
+use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System, Tolerance};
 use rank::{Evidence, KeptRowsError, NearlyRedundant, RankDecision};
 use rayon::prelude::*;
 
@@ -208,7 +208,7 @@ impl Analysis {
 /// - [`AnalysisError::Large`]: joints on common cycles are joined too closely for a sparse
 ///   decision.
 pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
-    analyse_known(mechanism, t, q, Known::AsStored)
+    analyse_known(mechanism, t, q, ConfigurationAccuracy::AsStored)
 }
 
 /// Like [`analyse`], for a configuration that is less accurate than it is stored: `known` states
@@ -220,7 +220,7 @@ pub fn analyse_known(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],
-    known: Known,
+    known: ConfigurationAccuracy,
 ) -> Result<Analysis, AnalysisError> {
     analyse_with_progress(mechanism, t, q, known, |_| ())
 }
@@ -235,7 +235,7 @@ pub fn analyse_with_progress(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],
-    known: Known,
+    known: ConfigurationAccuracy,
     progress: impl Fn(usize) + Sync,
 ) -> Result<Analysis, AnalysisError> {
     check_configuration(mechanism, t, q)?;
@@ -266,7 +266,7 @@ pub fn analyse_decided(
         let (own, q) = (part.extent.mechanism(mechanism), part.extent.coordinates(q));
         let found = match &part.certified {
             Some(certified) => {
-                let rows = Rows::new(&own, t, &q, Known::AsStored)?;
+                let rows = Rows::new(&own, t, &q, ConfigurationAccuracy::AsStored)?;
                 part_verdicts(&own, &evaluated(&own, t, &q), &rows, certified[0].clone())?
             }
             None => judge_sparse(&own, &evaluated(&own, t, &q), &q)?,
@@ -293,7 +293,7 @@ pub fn analyse_by_cycles(
     check_configuration(mechanism, t, q)?;
     let partition = Partition::by_cycles(mechanism, t, q);
     by_parts(mechanism, t, q, &partition, |part, q, _| {
-        judged_alone(part, t, q, Known::AsStored)
+        judged_alone(part, t, q, ConfigurationAccuracy::AsStored)
     })
 }
 
@@ -320,7 +320,7 @@ pub fn analyse_dropping(
     let found = by_parts(mechanism, t, q, &partition, |part, q, extent| {
         let own = extent.own_rows(&listed);
         if part.layout().rows() > ROWS_MAX {
-            let found = judged_alone(part, t, q, Known::AsStored)?;
+            let found = judged_alone(part, t, q, ConfigurationAccuracy::AsStored)?;
             // Either these are the rows that were dropped anyway, or there are too many rows to
             // choose.
             return if found.part.decision.rows().dropped == own {
@@ -333,7 +333,7 @@ pub fn analyse_dropping(
             };
         }
         let s = evaluated(part, t, q);
-        let rows = Rows::new(part, t, q, Known::AsStored)?;
+        let rows = Rows::new(part, t, q, ConfigurationAccuracy::AsStored)?;
         let certified = rows.decide()?;
         // Within a stated tolerance the rank need not be that of the matrix.
         let decision = if part.has_tolerances() {
@@ -388,7 +388,7 @@ fn judged_alone(
     part: &Mechanism,
     t: f64,
     q: &[f64],
-    known: Known,
+    known: ConfigurationAccuracy,
 ) -> Result<Judged, AnalysisError> {
     if part.layout().rows() <= ROWS_MAX {
         let rows = Rows::new(part, t, q, known)?;

@@ -7,7 +7,7 @@ use dynamics::{
     FORMULATION, Method, MotionOptions, Prepared, RowChoice, Summary, prepare, simulate,
 };
 use model::start::CorrectionLimit;
-use model::{BodySpace, Described, Description, Mechanism, Registry, StartOptions};
+use model::{BodySpace, Description, Mechanism, MechanismDescription, Registry, StartOptions};
 use pfaff::{RunOptions, Study, StudyError};
 use solvability::{Analysis, analyse};
 
@@ -83,7 +83,7 @@ pub fn study(text: &str) -> Result<Study, Outcome> {
 ///
 /// # Errors
 /// All faults of the description.
-pub fn built<S: BodySpace>(description: &Described<S>) -> Result<Mechanism, Outcome> {
+pub fn built<S: BodySpace>(description: &MechanismDescription<S>) -> Result<Mechanism, Outcome> {
     Mechanism::build(description).map_err(|errors| {
         let texts: Vec<String> = errors.iter().map(ToString::to_string).collect();
         Outcome::refused(texts.join("; "))
@@ -96,7 +96,7 @@ pub fn built<S: BodySpace>(description: &Described<S>) -> Result<Mechanism, Outc
 ///
 /// # Errors
 /// The faults of the description, or the reason why it cannot move.
-pub fn prepared<S: BodySpace>(description: &Described<S>) -> Result<Prepared, Outcome> {
+pub fn prepared<S: BodySpace>(description: &MechanismDescription<S>) -> Result<Prepared, Outcome> {
     let start = StartOptions {
         correction: CorrectionLimit::Any,
         ..StartOptions::default()

@@ -41,7 +41,7 @@ fn drive<K: Constraint<Space3>>() -> Kernels {
 }
 
 /// Couplings of an angle with an angle and with a length, with and without a common body.
-fn couplings() -> Vec<Placed<Space3>> {
+fn couplings() -> Vec<AttachedConstraint<Space3>> {
     let angle = drive::<RevoluteAngleDrive>;
     let length = drive::<CylindricalDisplacementDrive>;
     let other = drive::<CylindricalAngleDrive>;
@@ -242,7 +242,7 @@ fn close(found: &[f64], expected: &[f64], what: &str) {
 fn cases() -> Vec<Case> {
     // Slots of the angles of each coupling.
     let angles: [&[[usize; 2]]; 3] = [&[[2, 3]], &[[0, 1]], &[[0, 2], [0, 1]]];
-    let case = |(seed, (bodies, mut kernels)): (usize, Placed<Space3>)| {
+    let case = |(seed, (bodies, mut kernels)): (usize, AttachedConstraint<Space3>)| {
         let state = |number: usize| {
             let mut state = State::new(bodies.len(), number);
             for (k, slots) in angles[seed].iter().enumerate() {

@@ -12,13 +12,13 @@ use crate::rows::RowRanges;
 
 /// A constraint in the axes in which its bodies move.
 #[derive(Clone)]
-pub(crate) struct Framed {
+pub(crate) struct FramedConstraint {
     element: AnyConstraint,
     /// Axes u, v and w of its joint, fixed in the first body, in the axes of its frame.
     axes: Option<[[f64; 3]; 3]>,
 }
 
-impl Framed {
+impl FramedConstraint {
     /// A constraint as it is described; `turn` writes it in the axes in which its bodies move.
     pub(crate) fn new(mut element: AnyConstraint, turn: impl FnOnce(&mut AnyConstraint)) -> Self {
         let axes = with!(AnyConstraint, &element, element, _S => element.axes());
@@ -35,7 +35,7 @@ impl Framed {
 /// they depend on them, the velocities; `out` is overwritten.
 #[derive(Clone)]
 pub(crate) struct PlacedConstraint {
-    framed: Framed,
+    framed: FramedConstraint,
     pub(crate) site: Site,
     /// Its entries of C in the scratch.
     pub(crate) entries: Range<usize>,
@@ -49,7 +49,7 @@ pub(crate) struct PlacedConstraint {
 impl PlacedConstraint {
     /// A constraint whose rows are not yet numbered.
     pub(crate) fn new(
-        framed: Framed,
+        framed: FramedConstraint,
         site: Site,
         entries: Range<usize>,
         tolerance: Option<f64>,
@@ -70,7 +70,7 @@ impl PlacedConstraint {
         &self.framed.element
     }
 
-    pub(crate) fn framed(&self) -> &Framed {
+    pub(crate) fn framed(&self) -> &FramedConstraint {
         &self.framed
     }
 

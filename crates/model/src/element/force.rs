@@ -9,7 +9,7 @@ use super::slots::{Site, Slots};
 use super::turned::TurnedSlots;
 use super::{AnyForce, Bodies, ForceKernels, with};
 use crate::body::BodyRef;
-use crate::law::{DriveForce, Undefined};
+use crate::law::{DriveForce, UndefinedValue};
 
 /// A force with its indices in the mechanism.
 #[derive(Clone)]
@@ -186,7 +186,7 @@ impl PlacedForce {
     }
 
     /// Why its called function has no value.
-    pub(crate) fn undefined(&self, s: &Slots) -> Option<Undefined> {
+    pub(crate) fn undefined(&self, s: &Slots) -> Option<UndefinedValue> {
         if let Some((turned, kernels)) = self.between() {
             let f = self.site.f(s);
             let at = self.site.in_space(s);

@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 
 use linalg::{Matrix, singular_values};
-use model::{Known, Mechanism, RowRanges, Scratch, System};
+use model::{ConfigurationAccuracy, Mechanism, RowRanges, Scratch, System};
 use rank::KeptRowsError;
 
 use super::free::Choosing;
@@ -126,7 +126,7 @@ impl<'m> FreePart<'m> {
         choices: Vec<Choice>,
     ) -> Result<Self, AnalysisError> {
         let q = extent.coordinates(q);
-        let rows = Rows::new(&mechanism, t, &q, Known::AsStored)?;
+        let rows = Rows::new(&mechanism, t, &q, ConfigurationAccuracy::AsStored)?;
         let (size, decision) = (rows.size(), rows.decide()?);
         drop(rows);
         let scaling = &decision.scaling;

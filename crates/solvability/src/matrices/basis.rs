@@ -21,14 +21,14 @@ pub(crate) struct Basis {
     /// m × p.
     pub(crate) z: Matrix,
     /// Accuracy of both.
-    pub(crate) known: Known,
+    pub(crate) known: RowAccuracy,
     /// The left null space modulo primes, if the entries are exact.
     pub(crate) exact: Option<ExactNullSpace>,
 }
 
 /// Accuracy of rows of C and Z according to the evidence of a rank.
 #[derive(Clone, Debug)]
-pub(crate) struct Known {
+pub(crate) struct RowAccuracy {
     /// Whether the rank is decided.
     pub(crate) status: RankStatus,
     /// Row factors of the equilibration, D_r.

@@ -9,7 +9,7 @@
 use std::borrow::Cow;
 
 use linalg::Matrix;
-use model::{ConstraintId, Known, Mechanism, Scratch, System};
+use model::{ConfigurationAccuracy, ConstraintId, Mechanism, Scratch, System};
 use rank::RankStatus;
 
 use super::recorder::Verdicts;
@@ -30,9 +30,9 @@ pub struct CarriedVerdicts<'m> {
     mechanism: &'m Mechanism,
     /// Length that makes C dimensionless (m).
     size: f64,
-    accuracy: Known,
+    accuracy: ConfigurationAccuracy,
     /// The same at the start, which is stored.
-    at_start: Known,
+    at_start: ConfigurationAccuracy,
     parts: Vec<OpenPart<'m>>,
     groups: Vec<Group>,
     /// What is judged.
@@ -59,7 +59,7 @@ struct OpenPart<'m> {
 
 /// Accuracy of vectors of a left null space.
 struct Accuracy {
-    known: matrices::Known,
+    known: matrices::RowAccuracy,
     /// The smallest singular value of the equilibrated rows.
     sigma: f64,
     /// Factors of the columns of the mechanism in the equilibrated rows; zero for columns of other
@@ -109,8 +109,8 @@ impl<'m> CarriedVerdicts<'m> {
         let mut carried = Self {
             mechanism,
             size: model::start::scene_size(mechanism, q),
-            accuracy: Known::To(rtol),
-            at_start: Known::AsStored,
+            accuracy: ConfigurationAccuracy::To(rtol),
+            at_start: ConfigurationAccuracy::AsStored,
             parts,
             groups: groups.to_vec(),
             numbers: Vec::new(),
@@ -301,10 +301,10 @@ impl OpenPart<'_> {
         &mut self,
         whole: &Mechanism,
         at: &CarriedState<'_>,
-        known: Known,
+        known: ConfigurationAccuracy,
         forms: &[LinearForm],
     ) -> Result<Verdicts, AnalysisError> {
-        let of_motion = known != Known::AsStored;
+        let of_motion = known != ConfigurationAccuracy::AsStored;
         if of_motion && let Some(accuracy) = &self.known {
             let basis = self.carried_basis(whole, at, accuracy);
             let found = self.judged(whole, at, forms, &|_| Cow::Borrowed(&basis));
@@ -328,7 +328,7 @@ impl OpenPart<'_> {
         &mut self,
         whole: &Mechanism,
         at: &CarriedState<'_>,
-        known: Known,
+        known: ConfigurationAccuracy,
         forms: &[LinearForm],
     ) -> Result<Verdicts, AnalysisError> {
         let q = self.extent.coordinates(at.q);
@@ -336,12 +336,12 @@ impl OpenPart<'_> {
         let (found, accuracy) = if self.rows.len() <= ROWS_MAX {
             // A configuration that is only accurate to the motion gains nothing in double-double.
             let s = evaluated(&self.mechanism, at.t, &q);
-            let rows = if known == Known::AsStored {
+            let rows = if known == ConfigurationAccuracy::AsStored {
                 Rows::new(&self.mechanism, at.t, &q, known)?
             } else {
                 Rows::at(&self.mechanism, Cow::Borrowed(&s), &q, known)
             };
-            let decision = if known == Known::AsStored {
+            let decision = if known == ConfigurationAccuracy::AsStored {
                 Some(rows.decide()?)
             } else {
                 rows.of_rank(self.rows.len() - self.redundancy)?
@@ -383,7 +383,7 @@ impl OpenPart<'_> {
             (found.map_err(query)?, accuracy)
         };
         let is_of_motion = accuracy.is_some();
-        if known != Known::AsStored {
+        if known != ConfigurationAccuracy::AsStored {
             self.known = accuracy.or(self.known.take());
         }
         Ok(if is_of_motion {
@@ -404,7 +404,7 @@ impl OpenPart<'_> {
         &self,
         whole: &Mechanism,
         size: f64,
-        known: matrices::Known,
+        known: matrices::RowAccuracy,
         exponents: &[i32],
         sigma: f64,
     ) -> Accuracy {
