@@ -8,7 +8,7 @@ use pfaff::dynamics::{Method, Wanted};
 use pfaff::memory::{Budget, Bytes};
 use pfaff::model::{ConstraintId, Mechanism, System, Tolerance};
 use pfaff::scene::nearest;
-use pfaff::solvability::{Allowed, Choice, Compliance, NormWeights};
+use pfaff::solvability::{DeletableRows, Choice, Compliance, NormWeights};
 use pfaff::{RunOptions as Overrides, StudyError};
 use pyo3::prelude::*;
 
@@ -154,15 +154,15 @@ pub(crate) enum Allow {
 }
 
 impl Allow {
-    pub(crate) fn allowed(&self, mechanism: &Mechanism) -> Result<Allowed, Fault> {
+    pub(crate) fn allowed(&self, mechanism: &Mechanism) -> Result<DeletableRows, Fault> {
         match self {
             Self::Word(word) => match word.as_str() {
-                "sensible" => Ok(Allowed::Sensible),
-                "whole" => Ok(Allowed::Whole),
-                "rows" => Ok(Allowed::Rows((0..mechanism.layout().rows()).collect())),
+                "sensible" => Ok(DeletableRows::Sensible),
+                "whole" => Ok(DeletableRows::Whole),
+                "rows" => Ok(DeletableRows::Rows((0..mechanism.layout().rows()).collect())),
                 _ => Err(unknown("permission", word, &["sensible", "whole", "rows"])),
             },
-            Self::Rows(rows) => Ok(Allowed::Rows(
+            Self::Rows(rows) => Ok(DeletableRows::Rows(
                 rows_from_zero(Some(rows))?.unwrap_or_default(),
             )),
         }

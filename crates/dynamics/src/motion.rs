@@ -4,7 +4,7 @@
 //! and polished point on, which does not change the motion.
 
 use model::{Mechanism, Scratch, System};
-use solvability::Chosen;
+use solvability::ChosenValues;
 
 use crate::code::SceneCode;
 use crate::counts::{Counted, note};
@@ -235,7 +235,7 @@ impl<'m> KeptRowMotion<'m> {
         t: f64,
         q: &[f64],
         v: &[f64],
-        lambda: &mut Chosen<f64>,
+        lambda: &mut ChosenValues<f64>,
     ) -> Result<(), MotionFault> {
         lambda.choose(self.equations.without_multiplier());
         self.write_multipliers(t, q, v, lambda.to_be_written())

@@ -12,7 +12,7 @@ use model::{ColumnKind, Layout, Mechanism, System};
 use report::AnalysisDocument;
 use report::documents::AlongDocument;
 use solvability::{
-    Along, AlongError, Extent, PassageKind, State, Stretches, along_motion_of_parts,
+    AlongError, Extent, MotionAnalysis, PassageKind, State, Stretches, along_motion_of_parts,
 };
 
 use crate::error::StudyError;
@@ -48,7 +48,7 @@ const INTERVALS_MAX: usize = 4_000;
 #[non_exhaustive]
 pub struct VerdictsAlongMotion {
     /// The verdicts by stretches of time, and the singular configurations.
-    pub along: Along,
+    pub along: MotionAnalysis,
     /// Last time that was analysed (s).
     pub to: f64,
     /// Number of analysed states.
@@ -217,7 +217,7 @@ impl Study {
         to: f64,
         intervals: usize,
         progress: &mut (impl FnMut(Progress) + Send),
-    ) -> Result<Along, StudyError> {
+    ) -> Result<MotionAnalysis, StudyError> {
         let times: Vec<f64> = (0..=intervals)
             .map(|k| to * (k as f64 / intervals as f64))
             .collect();

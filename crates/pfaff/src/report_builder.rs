@@ -14,7 +14,7 @@ use report::{
     WrittenScene, numbers_per_row, run_page,
 };
 use scene::{Scene, Units, WithUnit};
-use solvability::{Allowed, Sensitivities, Stretches, Verdict};
+use solvability::{DeletableRows, Sensitivities, Stretches, Verdict};
 
 use crate::comparison::compare;
 use crate::configuration::ConfigurationAnalysis;
@@ -179,8 +179,8 @@ impl<'a> ReportBuilder<'a> {
             .iter()
             .filter(|r| r.wrench.verdict == Verdict::NotUnique);
         let hints = open.take(HINTS).map(|r| {
-            let found = start.make_unique(r.id, &Allowed::Sensible, limits);
-            MakeUniqueDocument::new(&r.name, &Allowed::Sensible, found)
+            let found = start.make_unique(r.id, &DeletableRows::Sensible, limits);
+            MakeUniqueDocument::new(&r.name, &DeletableRows::Sensible, found)
         });
         let hints = hints.collect();
         (document, hints)

@@ -26,8 +26,9 @@ use report::{
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{
-    Choice, Chosen, Contradiction, Freedoms, Group, GroupNumbers, GroupSensitivities, NamedChoice,
-    ReactionVerdict, Sensitivities, Sensitivity, State, Stretches, contradicting_drives_along,
+    Choice, ChosenValues, Contradiction, Freedoms, Group, GroupNumbers, GroupSensitivities,
+    NamedChoice, ReactionVerdict, Sensitivities, Sensitivity, State, Stretches,
+    contradicting_drives_along,
 };
 
 use crate::assembled::{AssembledScene, refused};
@@ -91,9 +92,9 @@ pub struct EndedRun {
 #[non_exhaustive]
 pub struct ChosenNumbers {
     /// Reactions of all joints and drives in the order of their rows.
-    pub reactions: Chosen<Reaction>,
+    pub reactions: ChosenValues<Reaction>,
     /// All numbers of the groups of the scene, group by group.
-    pub groups: Chosen<f64>,
+    pub groups: ChosenValues<f64>,
     /// The same for each choice of [`Study::choices`] and then of [`Wanted::choices`]; NaN where a
     /// choice selects no solution.
     pub choices: Vec<ChosenNumbers>,

@@ -9,7 +9,7 @@ use dynamics::code::SharedCode;
 use dynamics::{CodeMismatch, KeptRowMotion, Prepared, SceneCode, simulate};
 use linalg::KeptRowSaddle;
 use model::{Registry, System};
-use pfaff::solvability::Chosen;
+use pfaff::solvability::ChosenValues;
 use pfaff::{AssembledScene, RunOptions, Study};
 use pfaff_scene_codegen::{Choices, CodeError, NotAnInput, State, Subject, scene_tape, scene_text};
 use scene::Template;
@@ -155,7 +155,7 @@ fn compare(what: &str, code: &dyn SceneCode, study: &Study) {
     };
     let (mut a, mut expected) = (vec![0.0; n], vec![0.0; n]);
     let mut lambda = vec![0.0; rows];
-    let mut expected_lambda = Chosen::new(vec![0.0; rows], Vec::new());
+    let mut expected_lambda = ChosenValues::new(vec![0.0; rows], Vec::new());
     let (mut phi, mut residual) = (vec![0.0; layout.m], vec![0.0; rows]);
     let mut compared = 0;
     for State { t, q, v } in states(study) {

@@ -2,7 +2,7 @@
 //! added up and numbered as in the whole mechanism.
 
 use crate::error::AnalysisError;
-use crate::judged::{Dependency, Judged, ReactionVerdict};
+use crate::judged::{Dependency, PartResults, ReactionVerdict};
 use crate::limits::ROWS_MAX;
 use crate::pose::{decide_dropping, evaluated};
 use crate::row_decision::RowDecision;
@@ -15,7 +15,7 @@ use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System, Tolerance};
 use rank::{Evidence, KeptRowsError, NearlyRedundant, RankDecision};
 use rayon::prelude::*;
 
-use crate::certificate::Rows;
+use crate::certificate::UncertainRows;
 use crate::large::judge_sparse;
 use crate::mechanism::part_verdicts;
 use crate::parts::{Extent, ListedRows, PartAnalysis, Partition};
@@ -139,7 +139,7 @@ impl Analysis {
     }
 
     /// Adds up the results of the parts.
-    pub(crate) fn of(mechanism: &Mechanism, t: f64, q: &[f64], judged: Vec<Judged>) -> Self {
+    pub(crate) fn of(mechanism: &Mechanism, t: f64, q: &[f64], judged: Vec<PartResults>) -> Self {
         let layout = mechanism.layout();
         let mut analysis = Self {
             time: t,
@@ -159,7 +159,7 @@ impl Analysis {
             warnings: Vec::new(),
             parts: Vec::with_capacity(judged.len()),
         };
-        for Judged {
+        for PartResults {
             part,
             reactions,
             dependencies,
@@ -266,7 +266,7 @@ pub fn analyse_decided(
         let (own, q) = (part.extent.mechanism(mechanism), part.extent.coordinates(q));
         let found = match &part.certified {
             Some(certified) => {
-                let rows = Rows::new(&own, t, &q, ConfigurationAccuracy::AsStored)?;
+                let rows = UncertainRows::new(&own, t, &q, ConfigurationAccuracy::AsStored)?;
                 part_verdicts(&own, &evaluated(&own, t, &q), &rows, certified[0].clone())?
             }
             None => judge_sparse(&own, &evaluated(&own, t, &q), &q)?,
@@ -275,7 +275,7 @@ pub fn analyse_decided(
         progress(done.fetch_add(joints, Ordering::Relaxed) + joints);
         Ok(found.placed(mechanism, part.extent.clone()))
     });
-    let parts: Vec<Result<Judged, AnalysisError>> = parts.collect();
+    let parts: Vec<Result<PartResults, AnalysisError>> = parts.collect();
     let judged = parts.into_iter().collect::<Result<_, _>>()?;
     Ok(Analysis::of(mechanism, t, q, judged))
 }
@@ -333,7 +333,7 @@ pub fn analyse_dropping(
             };
         }
         let s = evaluated(part, t, q);
-        let rows = Rows::new(part, t, q, ConfigurationAccuracy::AsStored)?;
+        let rows = UncertainRows::new(part, t, q, ConfigurationAccuracy::AsStored)?;
         let certified = rows.decide()?;
         // Within a stated tolerance the rank need not be that of the matrix.
         let decision = if part.has_tolerances() {
@@ -374,7 +374,7 @@ fn by_parts(
     t: f64,
     q: &[f64],
     partition: &Partition,
-    judge: impl Fn(&Mechanism, &[f64], &Extent) -> Result<Judged, AnalysisError> + Sync,
+    judge: impl Fn(&Mechanism, &[f64], &Extent) -> Result<PartResults, AnalysisError> + Sync,
 ) -> Result<Analysis, AnalysisError> {
     let judged = partition.map(mechanism, |part, extent| {
         let found = judge(part, &extent.coordinates(q), &extent)?;
@@ -389,9 +389,9 @@ fn judged_alone(
     t: f64,
     q: &[f64],
     known: ConfigurationAccuracy,
-) -> Result<Judged, AnalysisError> {
+) -> Result<PartResults, AnalysisError> {
     if part.layout().rows() <= ROWS_MAX {
-        let rows = Rows::new(part, t, q, known)?;
+        let rows = UncertainRows::new(part, t, q, known)?;
         let decision = rows.decide()?;
         part_verdicts(part, &evaluated(part, t, q), &rows, decision)
     } else {

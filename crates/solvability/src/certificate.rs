@@ -22,7 +22,7 @@ use crate::numerical_rank::{Nearness, Question, Reading, UncertainMatrix};
 use crate::state::check_configuration;
 
 /// C of a mechanism without dimensions, with the accuracy of its entries.
-pub(crate) struct Rows<'a> {
+pub(crate) struct UncertainRows<'a> {
     mechanism: &'a Mechanism,
     /// Φ and C evaluated at q.
     scratch: Cow<'a, Scratch>,
@@ -36,7 +36,7 @@ pub(crate) struct Rows<'a> {
     extended: Option<DdMatrix>,
 }
 
-impl<'a> Rows<'a> {
+impl<'a> UncertainRows<'a> {
     /// C at the pose of the scratch, in `f64`; q are its coordinates.
     pub(crate) fn in_double(mechanism: &'a Mechanism, s: &'a Scratch, q: &'a [f64]) -> Self {
         Self::at(
@@ -364,7 +364,10 @@ pub(crate) fn holding_together(
         return rows;
     }
     let s = evaluated(mechanism, t, q);
-    match Rows::in_double(mechanism, &s, q).select(&rows).decide() {
+    match UncertainRows::in_double(mechanism, &s, q)
+        .select(&rows)
+        .decide()
+    {
         Ok(decision) if decision.is_decided() => decision.kept.iter().map(|&k| rows[k]).collect(),
         _ => rows,
     }
@@ -377,5 +380,5 @@ pub(crate) fn holding_together(
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
 /// - [`AnalysisError::Rank`]: C is not finite.
 pub fn certify(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<RankDecision, AnalysisError> {
-    Rows::new(mechanism, t, q, ConfigurationAccuracy::AsStored)?.decide()
+    UncertainRows::new(mechanism, t, q, ConfigurationAccuracy::AsStored)?.decide()
 }

@@ -16,7 +16,7 @@ use model::{BodyRef, ConstraintId, Layout, Mechanism, Scratch, SpaceKind, System
 use rank::{Circuit, StructureVerdict};
 
 use crate::directions::readable;
-use crate::loads::{self, Told};
+use crate::loads::{self, LoadDescription};
 use crate::matrices::{QueryError, Solvability};
 use crate::verdict::Verdict;
 use crate::words::{self, list, names};
@@ -268,13 +268,13 @@ fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvabili
                 );
                 let share = match told {
                     None => "share loads".to_owned(),
-                    Some(Told::Common(load)) => {
+                    Some(LoadDescription::Common(load)) => {
                         format!("can carry {load} that the bodies cannot tell apart")
                     }
-                    Some(Told::Each(load)) => {
+                    Some(LoadDescription::Each(load)) => {
                         format!("can each carry {load} that the bodies cannot tell apart")
                     }
-                    Some(Told::Various(loads)) => {
+                    Some(LoadDescription::Various(loads)) => {
                         format!("share loads that the bodies cannot tell apart ({loads})")
                     }
                 };

@@ -22,7 +22,7 @@ mod mapped;
 mod tests;
 
 pub(crate) use basis::{Basis, RowAccuracy};
-pub(crate) use mapped::Mapped;
+pub(crate) use mapped::MultiplierMap;
 
 pub use error::QueryError;
 

@@ -60,7 +60,7 @@ impl DecidedPart {
                 certified: None,
             });
         }
-        let rows = certificate::Rows::new(part, t, q, ConfigurationAccuracy::AsStored)?;
+        let rows = certificate::UncertainRows::new(part, t, q, ConfigurationAccuracy::AsStored)?;
         let all = rows.decide()?;
         let holonomic = match layout.h {
             0 => all.clone(),

@@ -12,7 +12,7 @@ use crate::limits::SPARE_COMBINATIONS;
 use crate::matrices::{self, Basis};
 
 /// A sparse decision on rows of C, with these rows.
-pub(crate) struct Decided {
+pub(crate) struct SparseDecision {
     /// Without dimensions.
     c: SparseMatrix,
     pub(crate) found: SparseRank,
@@ -29,10 +29,10 @@ pub(crate) fn decide_some(
     q: &[f64],
     rows: impl Iterator<Item = usize> + Clone,
 ) -> Result<SparseRank, AnalysisError> {
-    Decided::of(mechanism, s, q, rows).map(|decided| decided.found)
+    SparseDecision::of(mechanism, s, q, rows).map(|decided| decided.found)
 }
 
-impl Decided {
+impl SparseDecision {
     pub(crate) fn of(
         mechanism: &Mechanism,
         s: &Scratch,

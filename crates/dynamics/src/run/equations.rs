@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use integrators::{Delicate, Implicit, IntegrationError, Ode, StepEnd, StepInfo, Tolerance};
 use model::{ConstraintId, Mechanism, System};
-use solvability::{CarriedChoices, Group, Looked, NamedChoice, Stretches};
+use solvability::{CarriedChoices, Group, InstantOrder, NamedChoice, Stretches};
 
 use super::by_time::ByTime;
 use super::caller::Stop;
@@ -325,7 +325,12 @@ impl<'m> RunEquations<'m> {
             self.motion.end_row(t_before, (q, v))?;
         }
         let (q, _) = self.motion.parts(y);
-        let looked = verdicts.look(&mut self.motion, (t, t_before, q), false, Looked::Ahead);
+        let looked = verdicts.look(
+            &mut self.motion,
+            (t, t_before, q),
+            false,
+            InstantOrder::Ahead,
+        );
         let not_of_run = verdicts.not_of_run();
         let wanted = &mut self.wanted.reactions;
         wanted.retain(|k| !not_of_run.contains(&ConstraintId(*k)));

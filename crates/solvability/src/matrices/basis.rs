@@ -8,7 +8,7 @@ use crate::limits::ROUNDING_OF_MAP;
 use linalg::{Matrix, PivotedQr};
 use rank::{CoefficientReading, ExactNullSpace, RankStatus, Readings};
 
-use super::Mapped;
+use super::MultiplierMap;
 use super::error::QueryError;
 use crate::verdict::{Judgement, Verdict, worst};
 
@@ -134,8 +134,8 @@ impl Basis {
         &'a self,
         map: &'a Matrix,
         rows: impl IntoIterator<Item = usize>,
-    ) -> Result<Mapped<'a>, QueryError> {
-        Mapped::new(self, map, self.list(rows)?)
+    ) -> Result<MultiplierMap<'a>, QueryError> {
+        MultiplierMap::new(self, map, self.list(rows)?)
     }
 
     /// Whether no dependency reaches these rows: then all that follows from their multipliers is

@@ -13,8 +13,8 @@ use model::{ConfigurationAccuracy, ConstraintId, Mechanism, Scratch, System};
 use rank::RankStatus;
 
 use super::recorder::Verdicts;
-use super::{Looked, Stretches, VerdictRecorder, VerdictTrack};
-use crate::certificate::Rows;
+use super::{InstantOrder, Stretches, VerdictRecorder, VerdictTrack};
+use crate::certificate::UncertainRows;
 use crate::components::{all_components, judge_components, number_names};
 use crate::error::AnalysisError;
 use crate::groups::{Group, LinearForm, ReactionForms, RequestError};
@@ -22,7 +22,7 @@ use crate::limits::ROWS_MAX;
 use crate::matrices::{self, Basis, QueryError, Solvability, orthonormal};
 use crate::parts::{Extent, open_parts};
 use crate::pose::evaluated;
-use crate::sparse::Decided;
+use crate::sparse::SparseDecision;
 use crate::verdict::Verdict;
 
 /// The verdicts of a motion of a mechanism, collected while it goes.
@@ -36,7 +36,7 @@ pub struct CarriedVerdicts<'m> {
     parts: Vec<OpenPart<'m>>,
     groups: Vec<Group>,
     /// What is judged.
-    numbers: Vec<Number>,
+    numbers: Vec<JudgedNumber>,
     recorder: VerdictRecorder,
 }
 
@@ -129,7 +129,7 @@ impl<'m> CarriedVerdicts<'m> {
 
     /// Takes the verdicts at a state. Where C cannot be analysed they are undecided, with the
     /// reason.
-    pub fn look(&mut self, at: &CarriedState<'_>, looked: Looked) {
+    pub fn look(&mut self, at: &CarriedState<'_>, looked: InstantOrder) {
         let verdicts = self.verdicts(at).unwrap_or_else(|error| {
             let reason = error.to_string();
             vec![Some(Verdict::Undecided { reason }); self.recorder.numbers()]
@@ -146,7 +146,7 @@ impl<'m> CarriedVerdicts<'m> {
         // By joint, whether its force and its torque are free.
         let mut free: Vec<[Option<bool>; 2]> = vec![[None; 2]; joints];
         for (k, number) in self.numbers.iter().enumerate() {
-            if let Number::Component(id, name) = number
+            if let JudgedNumber::Component(id, name) = number
                 && let Some(place) = space.component(name)
             {
                 let is_free = self.recorder.latest(k) == Some(&Verdict::NotUnique);
@@ -170,7 +170,7 @@ impl<'m> CarriedVerdicts<'m> {
     }
 
     /// Takes note of a state that says nothing of others: the rank drops there.
-    pub fn pass(&mut self, t: f64, looked: Looked) {
+    pub fn pass(&mut self, t: f64, looked: InstantOrder) {
         let nothing = vec![None; self.recorder.numbers()];
         self.recorder.see(t, looked, nothing);
     }
@@ -192,14 +192,14 @@ impl<'m> CarriedVerdicts<'m> {
             None => vec![None; self.recorder.numbers()],
         };
         let pairs = self.numbers.iter().zip(verdicts);
-        let component = |(number, verdict): (&Number, Option<Verdict>)| match *number {
-            Number::Component(id, name) => {
+        let component = |(number, verdict): (&JudgedNumber, Option<Verdict>)| match *number {
+            JudgedNumber::Component(id, name) => {
                 let open = || Verdict::Undecided {
                     reason: lower.to_owned(),
                 };
                 Some((id, name, verdict.unwrap_or_else(open)))
             }
-            Number::Group(..) => None,
+            JudgedNumber::Group(..) => None,
         };
         pairs.filter_map(component).collect()
     }
@@ -247,18 +247,18 @@ impl<'m> CarriedVerdicts<'m> {
     }
 
     /// The numbers that are judged, part by part: components of its joints, then those of groups.
-    fn all_numbers(&self) -> Vec<Number> {
+    fn all_numbers(&self) -> Vec<JudgedNumber> {
         let layout = self.mechanism.layout();
         let mut numbers = Vec::new();
         for part in &self.parts {
             for own in 0..part.mechanism.layout().groups.len() {
                 let id = ConstraintId(part.extent.group(own));
                 let names = number_names(&layout.groups[id.0]);
-                numbers.extend(names.map(|name| Number::Component(id, name)));
+                numbers.extend(names.map(|name| JudgedNumber::Component(id, name)));
             }
             for (k, group) in self.groups.iter().enumerate() {
                 let names = group.number_names(layout.space);
-                numbers.extend(names.iter().map(|name| Number::Group(k, name)));
+                numbers.extend(names.iter().map(|name| JudgedNumber::Group(k, name)));
             }
         }
         numbers
@@ -270,13 +270,13 @@ impl<'m> CarriedVerdicts<'m> {
         let mut stretches = Stretches::unique(self.mechanism, extent, &self.groups);
         for (number, track) in self.numbers.into_iter().zip(self.recorder.finish(extent)) {
             match number {
-                Number::Component(id, name) => {
+                JudgedNumber::Component(id, name) => {
                     let own = &mut stretches.reactions[id.0].components;
                     if let Some((_, known)) = own.iter_mut().find(|(n, _)| *n == name) {
                         *known = track;
                     }
                 }
-                Number::Group(k, name) => {
+                JudgedNumber::Group(k, name) => {
                     let own = &mut stretches.groups[k].numbers;
                     if let Some((_, known)) = own.iter_mut().find(|(n, _)| *n == name) {
                         *known = VerdictTrack::together(&[known, &track]);
@@ -290,7 +290,7 @@ impl<'m> CarriedVerdicts<'m> {
 }
 
 /// A number that is judged.
-enum Number {
+enum JudgedNumber {
     Component(ConstraintId, &'static str),
     Group(usize, &'static str),
 }
@@ -337,9 +337,9 @@ impl OpenPart<'_> {
             // A configuration that is only accurate to the motion gains nothing in double-double.
             let s = evaluated(&self.mechanism, at.t, &q);
             let rows = if known == ConfigurationAccuracy::AsStored {
-                Rows::new(&self.mechanism, at.t, &q, known)?
+                UncertainRows::new(&self.mechanism, at.t, &q, known)?
             } else {
-                Rows::at(&self.mechanism, Cow::Borrowed(&s), &q, known)
+                UncertainRows::at(&self.mechanism, Cow::Borrowed(&s), &q, known)
             };
             let decision = if known == ConfigurationAccuracy::AsStored {
                 Some(rows.decide()?)
@@ -370,7 +370,7 @@ impl OpenPart<'_> {
             (found.map_err(query)?, accuracy)
         } else {
             let s = evaluated(&self.mechanism, at.t, &q);
-            let decided = Decided::of(&self.mechanism, &s, &q, 0..self.rows.len())?;
+            let decided = SparseDecision::of(&self.mechanism, &s, &q, 0..self.rows.len())?;
             let is_of_motion =
                 decided.found.is_decided() && decided.found.redundancy == self.redundancy;
             let basis = |rows: &[usize]| Cow::Owned(decided.basis(rows));
