@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 
 use pfaff::ConfigurationAnalysis;
 use pfaff::dynamics::plan::{Reactions, Rows};
-use pfaff::dynamics::{Method, Wanted};
+use pfaff::dynamics::{Method, OutputRequest};
 use pfaff::memory::{Budget, Bytes};
 use pfaff::model::{ConstraintId, Mechanism, System, Tolerance};
 use pfaff::scene::nearest;
@@ -58,17 +58,17 @@ impl RunOptions {
         budget(self.max_memory.as_ref())
     }
 
-    pub(crate) fn wanted(&self) -> Wanted {
+    pub(crate) fn wanted(&self) -> OutputRequest {
         let reactions = match &self.reactions {
             None => Reactions::All,
             Some(names) if names.is_empty() => Reactions::None,
             Some(names) => Reactions::Of(names.clone()),
         };
-        Wanted {
+        OutputRequest {
             rows: Rows::Every,
             accelerations: false,
             reactions,
-            ..Wanted::default()
+            ..OutputRequest::default()
         }
     }
 

@@ -4,7 +4,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
 
-use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
+use dynamics::{MotionOptions, PreparedMechanism, RowChoice, prepare, simulate};
 use joints::RevoluteAngleDrive;
 use model::{BodyRef, Drive, Function, Layout, Mechanism, Registry, StartOptions, System};
 use pfaff::{RunOptions, Study};
@@ -421,7 +421,7 @@ fn the_robot_has_one_verdict_and_one_stretch_with_another() {
 
 /// Runs a mechanism, and returns its motion by cubic interpolation between rows, and the verdicts
 /// of the run.
-fn recorded(p: &Prepared, options: &MotionOptions) -> (impl Fn(f64) -> State, Stretches) {
+fn recorded(p: &PreparedMechanism, options: &MotionOptions) -> (impl Fn(f64) -> State, Stretches) {
     let mut rows = Vec::new();
     let summary = simulate(p, options, |s| {
         let mut rate = vec![0.0; s.q.len()];

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dynamics::plan::{Plan, Wanted};
+use dynamics::plan::{OutputRequest, Plan};
 use dynamics::{MotionFault, MotionOptions, Sample};
 use model::{ConfigurationAccuracy, ConstraintId, Mechanism, Registry, System};
 use pfaff::{RunOptions, Study};
@@ -94,11 +94,11 @@ fn compared(study: &Study, choices: &[Choice], t_end: f64) -> usize {
     let mechanism = &study.prepared.mechanism;
     let start = study.analyse(0.0, None).expect("decided");
     let named = choices.iter().map(|choice| start.named(choice));
-    let wanted = Wanted {
+    let wanted = OutputRequest {
         choices: named
             .collect::<Result<_, _>>()
             .unwrap_or_else(|e| panic!("{e}")),
-        ..Wanted::default()
+        ..OutputRequest::default()
     };
     let options = MotionOptions {
         output_step: t_end / 4.0,

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use dynamics::plan::{Reactions, Rows};
-use dynamics::{MotionError, MotionOptions, Plan, Stop, Wanted};
+use dynamics::{MotionError, MotionOptions, OutputRequest, Plan, Stop};
 use model::start::scene_size;
 use model::{ColumnKind, Layout, Mechanism, System};
 use report::AnalysisDocument;
@@ -271,7 +271,7 @@ impl Study {
         let base = self.options.clone();
         let many = self.prepared.mechanism.layout().rows() > MANY;
         let between = if many { 1 } else { ROWS };
-        let wanted = Wanted {
+        let wanted = OutputRequest {
             rows: if many {
                 Rows::Interpolated
             } else {
@@ -280,7 +280,7 @@ impl Study {
             accelerations: !many,
             // With them come the verdicts of the run; their numbers are not computed.
             reactions: Reactions::All,
-            ..Wanted::default()
+            ..OutputRequest::default()
         };
         let options = MotionOptions {
             t_end,

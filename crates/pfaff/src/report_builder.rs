@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 
 use dynamics::plan::Rows;
-use dynamics::{MotionOptions, Plan, Prepared, Sample};
+use dynamics::{MotionOptions, Plan, PreparedMechanism, Sample};
 use model::{Mechanism, System};
 use rank::Limits;
 use report::documents::MakeUniqueDocument;
@@ -38,7 +38,7 @@ pub(crate) struct OfRun<'a> {
 /// Rows of a run that are collected for its page.
 pub(crate) struct ReportBuilder<'a> {
     scene: &'a Scene,
-    prepared: &'a Prepared,
+    prepared: &'a PreparedMechanism,
     options: &'a MotionOptions,
     recording: Recording,
     /// Whether reactions are collected.
@@ -82,7 +82,7 @@ impl RowSink for ReportBuilder<'_> {
 impl<'a> ReportBuilder<'a> {
     pub(crate) fn new(
         scene: &'a Scene,
-        prepared: &'a Prepared,
+        prepared: &'a PreparedMechanism,
         asked: &'a MotionOptions,
         plan: &Plan<'_>,
     ) -> Self {

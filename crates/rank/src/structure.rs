@@ -75,7 +75,8 @@ pub struct Structure {
 ///
 /// ```
 /// use linalg::Matrix;
-/// use pfaff_rank::{RowGroup, StructureVerdict, structure};
+/// use pfaff_rank::StructureVerdict::{Open, Peeled};
+/// use pfaff_rank::{RowGroup, structure};
 /// // Block k = column k. Rows 0 and 1 both fix block 0; row 2 connects block 1 to it.
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [2.0, 0.0], [-1.0, 1.0]]);
 /// let groups = [(0..1, true), (1..2, true), (2..3, false)].map(|(rows, ground)| {
@@ -83,7 +84,7 @@ pub struct Structure {
 ///     RowGroup { rows, ground }
 /// });
 /// let found = structure(&c, pfaff_rank::Accuracy::Rounding, &groups, &[0..1, 1..2])?;
-/// assert_eq!(found.groups, [StructureVerdict::Open(0), StructureVerdict::Open(0), StructureVerdict::Peeled]);
+/// assert_eq!(found.groups, [Open(0), Open(0), Peeled]);
 /// assert_eq!(found.open[0].rows, [0, 1]);
 /// # Ok::<(), pfaff_rank::RankError>(())
 /// ```

@@ -11,7 +11,7 @@
 
 use std::collections::HashMap;
 
-use dynamics::{MotionOptions, Prepared};
+use dynamics::{MotionOptions, PreparedMechanism};
 use model::{Mechanism, RecordedEquations, System};
 use scene::{KeyError, Template};
 
@@ -73,7 +73,7 @@ pub(crate) fn vary<'a>(
 
 struct Search<'s> {
     scene: &'s SceneText<'s>,
-    prepared: &'s Prepared,
+    prepared: &'s PreparedMechanism,
     template: Template,
     keys: Vec<Key>,
     /// For each number, a share between ½ and 1; entries of a matrix that mirror each other have
@@ -83,7 +83,7 @@ struct Search<'s> {
 
 /// A mechanism with other numbers, and the run that its scene asks for.
 struct Varied {
-    prepared: Prepared,
+    prepared: PreparedMechanism,
     options: Option<MotionOptions>,
 }
 
@@ -91,7 +91,7 @@ impl<'s> Search<'s> {
     fn new(
         scene: &'s SceneText<'s>,
         names: &[String],
-        prepared: &'s Prepared,
+        prepared: &'s PreparedMechanism,
     ) -> Result<Self, CodeError> {
         let (mut keys, mut parts) = (Vec::new(), Vec::new());
         for name in names {
@@ -150,9 +150,9 @@ impl<'s> Search<'s> {
     /// with it.
     fn compared(
         &self,
-        other: &Prepared,
+        other: &PreparedMechanism,
         recordings: [&RecordedEquations; 2],
-    ) -> Result<Prepared, NotAnInput> {
+    ) -> Result<PreparedMechanism, NotAnInput> {
         let breaks = |m: &Mechanism| m.layout().break_times.clone();
         let rows = [&self.prepared.decision, &self.prepared.position_decision];
         let [kept, position_kept] = rows.map(|d| d.kept.as_slice());
@@ -202,7 +202,7 @@ impl<'s> Search<'s> {
         &self,
         sign: f64,
         described: &RecordedEquations,
-    ) -> Result<(Prepared, Vec<State>), CodeError> {
+    ) -> Result<(PreparedMechanism, Vec<State>), CodeError> {
         let mut first = None;
         for share in SHARES
             .iter()
@@ -239,7 +239,7 @@ impl<'s> Search<'s> {
         &self,
         described: &RecordedEquations,
         singles: &[Option<RecordedEquations>],
-        together: &[(Prepared, Vec<State>)],
+        together: &[(PreparedMechanism, Vec<State>)],
     ) -> Inputs {
         let together: Vec<RecordedEquations> = together
             .iter()

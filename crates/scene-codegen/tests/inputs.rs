@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use dynamics::code::SharedCode;
-use dynamics::{CodeMismatch, KeptRowMotion, Prepared, SceneCode, simulate};
+use dynamics::{CodeMismatch, KeptRowMotion, PreparedMechanism, SceneCode, simulate};
 use linalg::KeptRowSaddle;
 use model::{Registry, System};
 use pfaff::solvability::ChosenValues;
@@ -98,7 +98,7 @@ fn on_rows_of(code: &dyn SceneCode, mut study: Study) -> Study {
 }
 
 /// The code with the numbers of a mechanism.
-fn of(code: &dyn SceneCode, prepared: &Prepared) -> Arc<SharedCode> {
+fn of(code: &dyn SceneCode, prepared: &PreparedMechanism) -> Arc<SharedCode> {
     let inputs = code.inputs().expect("it takes numbers");
     let values = inputs.of("code", &prepared.mechanism).expect("its numbers");
     code.with_inputs(&values).expect("as many")
@@ -254,7 +254,7 @@ fn a_module_with_inputs_is_the_interpreter_of_every_scene_with_other_numbers_in_
 /// A run takes the numbers from its mechanism by itself.
 #[test]
 fn runs_take_the_numbers_of_their_scenes() {
-    let ends = |prepared: &Prepared, study: &Study| {
+    let ends = |prepared: &PreparedMechanism, study: &Study| {
         let mut last = Vec::new();
         let options = study.options.as_ref().expect("a run");
         let summary = simulate(prepared, options, |row| {

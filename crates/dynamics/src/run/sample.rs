@@ -53,7 +53,7 @@ pub(super) struct OfMotion<'s, 'm> {
     pub(super) t_before: f64,
     pub(super) wanted: &'s AtRows,
     pub(super) motion: &'s mut KeptRowMotion<'m>,
-    pub(super) known: Known,
+    pub(super) known: SolveProgress,
     /// What solves for the requested choices.
     pub(super) choices: Option<&'s CarriedChoices<'m>>,
     /// Multipliers, once they were asked for.
@@ -63,7 +63,7 @@ pub(super) struct OfMotion<'s, 'm> {
 }
 
 /// How far the equations of a row have been solved; they are solved at most once.
-pub(super) enum Known {
+pub(super) enum SolveProgress {
     Nothing,
     /// Rows are factored at the pose of the scratch, which is that of the row.
     Factored,
@@ -182,11 +182,11 @@ impl<'m> OfMotion<'_, 'm> {
     fn solve(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
         let mut a = vec![0.0; v.len()];
         match &self.known {
-            Known::Nothing => self.motion.acceleration(self.t_before, q, v, &mut a)?,
-            Known::Factored => self.motion.solve_factored(v, &mut a)?,
-            Known::Solved(a) => return Ok(a.clone()),
+            SolveProgress::Nothing => self.motion.acceleration(self.t_before, q, v, &mut a)?,
+            SolveProgress::Factored => self.motion.solve_factored(v, &mut a)?,
+            SolveProgress::Solved(a) => return Ok(a.clone()),
         }
-        self.known = Known::Solved(a.clone());
+        self.known = SolveProgress::Solved(a.clone());
         Ok(a)
     }
 

@@ -12,7 +12,7 @@ use crate::events::ReactionImpulse;
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
 use crate::plan::Verdicts;
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 
 /// What is noted of the verdicts of a run.
 pub(super) struct RunVerdicts<'m> {
@@ -35,7 +35,7 @@ impl<'m> RunVerdicts<'m> {
     /// For a run on these rows.
     pub(super) fn new(
         motion: &KeptRowMotion<'m>,
-        prepared: &Prepared,
+        prepared: &PreparedMechanism,
         options: &MotionOptions,
         (groups, wanted): (&[Group], Verdicts),
     ) -> Self {

@@ -155,7 +155,7 @@ mod tests {
         heavier.bodies[1].mass *= 1.0 + 1e-11;
         let prepared_right = prepared(&scene.description).unwrap();
         let prepared_wrong = prepared(&heavier).unwrap();
-        let acceleration = |p: &dynamics::Prepared| {
+        let acceleration = |p: &dynamics::PreparedMechanism| {
             let mut a = vec![0.0; p.v.len()];
             KeptRowMotion::new(p)
                 .unwrap()
