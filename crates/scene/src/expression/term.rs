@@ -12,7 +12,7 @@ use super::{Fault, Problem, Scope, Value, parse, taken};
 use crate::dimension::Dimension;
 
 #[derive(Clone)]
-pub(super) enum Term {
+pub(super) enum LawTerm {
     /// Without a variable.
     Constant(Quantity),
     Variable(Variable),
@@ -32,7 +32,7 @@ pub(crate) fn law(
     scope: &impl Scope,
 ) -> Result<Law, Vec<Fault>> {
     let variable = |of: Dimension, operation| {
-        Term::Variable(Variable {
+        LawTerm::Variable(Variable {
             dimension: Some(of),
             work: vec![operation],
         })
@@ -64,13 +64,13 @@ pub(crate) fn law(
     })
 }
 
-impl From<Quantity> for Term {
+impl From<Quantity> for LawTerm {
     fn from(q: Quantity) -> Self {
         Self::Constant(q)
     }
 }
 
-impl Term {
+impl LawTerm {
     fn dimension(&self) -> Option<Dimension> {
         match self {
             Self::Constant(q) => q.dimension,
@@ -173,11 +173,11 @@ impl Term {
 /// Largest whole power that is a product; see `Quantity::power`.
 const MOST_FACTORS: f64 = 64.0;
 
-fn joined([a, b]: [Variable; 2], join: Join, dimension: Option<Dimension>) -> Term {
+fn joined([a, b]: [Variable; 2], join: Join, dimension: Option<Dimension>) -> LawTerm {
     let mut work = a.work;
     work.extend(b.work);
     work.push(Operation::Join(join));
-    Term::Variable(Variable { dimension, work })
+    LawTerm::Variable(Variable { dimension, work })
 }
 
 impl Variable {
@@ -191,13 +191,13 @@ impl Variable {
         Ok(self)
     }
 
-    fn applied(mut self, f: UnaryFunction, dimension: Option<Dimension>) -> Term {
+    fn applied(mut self, f: UnaryFunction, dimension: Option<Dimension>) -> LawTerm {
         self.work.push(Operation::Apply(f));
-        Term::Variable(Self { dimension, ..self })
+        LawTerm::Variable(Self { dimension, ..self })
     }
 }
 
-impl Value for Term {
+impl Value for LawTerm {
     fn negated(self) -> Self {
         match self {
             Self::Constant(q) => Self::Constant(q.negated()),
