@@ -8,7 +8,7 @@ use model::record::Input;
 use model::{RecordedEquations, System};
 use symbolic::{Function, Graph, Program, Value};
 
-use crate::sampled::Sampled;
+use crate::sampled::SampledProgram;
 use crate::subject::{State, Subject};
 
 /// Number of states off the motion at which equations are compared.
@@ -49,7 +49,7 @@ impl Number {
     allow(dead_code, reason = "only modules say it")
 )]
 pub(crate) struct Equations {
-    pub(crate) code: Sampled,
+    pub(crate) code: SampledProgram,
     /// Names of the inputs, and their meanings.
     pub(crate) names: Graph,
     pub(crate) sources: Vec<Source>,
@@ -99,7 +99,7 @@ impl Equations {
             };
             sources.iter().enumerate().map(value).collect()
         });
-        let mut code = Sampled::new(samples.collect(), anywhere.collect());
+        let mut code = SampledProgram::new(samples.collect(), anywhere.collect());
         let mut names = Graph::new();
         let mut inputs = Vec::with_capacity(sources.len());
         for source in &sources {
@@ -183,7 +183,7 @@ fn shift(i: usize, k: usize) -> f64 {
 
 /// C as dense rows of a replayed recording, and a function that looks up its other results.
 pub(crate) fn results<'v>(
-    code: &mut Sampled,
+    code: &mut SampledProgram,
     recording: &RecordedEquations,
     values: &'v [Value],
 ) -> (
@@ -218,7 +218,7 @@ fn number(
 /// Repeats the operations of a tape in a program, which folds known values; the numbers at some
 /// places are inputs.
 pub(crate) fn replay(
-    code: &mut Sampled,
+    code: &mut SampledProgram,
     recording: &RecordedEquations,
     inputs: &[Value],
     numbers: &HashMap<usize, Value>,

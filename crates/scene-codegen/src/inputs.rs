@@ -82,7 +82,7 @@ struct Search<'s> {
 }
 
 /// A mechanism with other numbers, and the run that its scene asks for.
-struct Varied {
+struct MechanismVariant {
     prepared: PreparedMechanism,
     options: Option<MotionOptions>,
 }
@@ -123,7 +123,11 @@ impl<'s> Search<'s> {
     }
 
     /// The scene with some numbers changed by their shares.
-    fn changed(&self, which: impl Fn(usize) -> bool, by: f64) -> Result<Varied, CodeError> {
+    fn changed(
+        &self,
+        which: impl Fn(usize) -> bool,
+        by: f64,
+    ) -> Result<MechanismVariant, CodeError> {
         let shares = self.shares.iter().enumerate();
         let shares = shares.map(|(k, share)| if which(k) { by * share } else { 0.0 });
         let shares: Vec<f64> = shares.collect();
@@ -143,7 +147,7 @@ impl<'s> Search<'s> {
             registry,
             drop,
         })?;
-        Ok(Varied { prepared, options })
+        Ok(MechanismVariant { prepared, options })
     }
 
     /// A mechanism on the rows of the described one, if it has everything but its numbers in common
