@@ -53,7 +53,9 @@ pub struct Wrench {
 }
 
 /// A function that is called. It is equal to its copies only.
-pub(crate) struct CalledFunction<I, O>(Arc<dyn Fn(&I) -> Result<O, CallError> + Send + Sync>);
+pub(crate) struct CalledFunction<I, O>(Arc<Callback<I, O>>);
+
+type Callback<I, O> = dyn Fn(&I) -> Result<O, CallError> + Send + Sync;
 
 impl<I, O> CalledFunction<I, O> {
     pub(crate) fn new(
