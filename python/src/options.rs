@@ -4,12 +4,12 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use pfaff::ConfigurationAnalysis;
+use pfaff::RunOptions as Overrides;
 use pfaff::dynamics::plan::{Reactions, Rows};
-use pfaff::dynamics::{Method, Wanted};
+use pfaff::dynamics::{Method, OutputRequest};
 use pfaff::memory::{Budget, Bytes};
 use pfaff::model::Tolerance;
 use pfaff::scene::nearest;
-use pfaff::RunOptions as Overrides;
 use pyo3::prelude::*;
 
 use crate::fault::{Fault, wrong};
@@ -58,17 +58,17 @@ impl RunOptions {
         budget(self.max_memory.as_ref())
     }
 
-    pub(crate) fn wanted(&self) -> Wanted {
+    pub(crate) fn wanted(&self) -> OutputRequest {
         let reactions = match &self.reactions {
             None => Reactions::All,
             Some(names) if names.is_empty() => Reactions::None,
             Some(names) => Reactions::Of(names.clone()),
         };
-        Wanted {
+        OutputRequest {
             rows: Rows::Every,
             accelerations: false,
             reactions,
-            ..Wanted::default()
+            ..OutputRequest::default()
         }
     }
 

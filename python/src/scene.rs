@@ -14,7 +14,9 @@ use pfaff::question::{Control, Output, Place};
 use pfaff::questions::Questions;
 use pfaff::refusal::{Refusal, json};
 use pfaff::report::documents::{EventDocument, part_as_json};
-use pfaff::report::{Column as ReportColumn, FileError, Origin, OutputDirectory, ReactionColumn, Trajectory};
+use pfaff::report::{
+    Column as ReportColumn, FileError, Origin, OutputDirectory, ReactionColumn, Trajectory,
+};
 use pfaff::scene::{KeyError, Template};
 use pfaff::solvability::Choice;
 use pfaff::start::{Judged, Start};

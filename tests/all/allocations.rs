@@ -3,7 +3,7 @@
 
 use dynamics::{KeptRowMotion, Method, MotionOptions, RowChoice, prepare};
 use model::{Mechanism, StartOptions};
-use solvability::Chosen;
+use solvability::ChosenValues;
 use tests::robot::{robot, steering};
 
 #[test]
@@ -13,7 +13,7 @@ fn evaluations_and_projections_allocate_nothing() {
     let mut motion = KeptRowMotion::new(&p).expect("moves");
     let (mut q, mut v) = (p.q.clone(), p.v.clone());
     let mut a = vec![0.0; v.len()];
-    let mut lambda = Chosen::new(vec![0.0; 22], vec![0; 2]);
+    let mut lambda = ChosenValues::new(vec![0.0; 22], vec![0; 2]);
     // Slightly off the constraints, so that the projection is not trivial.
     let push = |q: &mut [f64], v: &mut [f64]| {
         q[4] += 1e-6;

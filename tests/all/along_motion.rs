@@ -4,12 +4,12 @@
 use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
 
-use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
+use dynamics::{MotionOptions, PreparedMechanism, RowChoice, prepare, simulate};
 use joints::RevoluteAngleDrive;
 use model::{BodyRef, Drive, Function, Layout, Mechanism, Registry, StartOptions, System};
 use pfaff::{RunOptions, Study};
 use solvability::{
-    Along, AlongError, Continuation, PassageKind, State, Stretches, Verdict, VerdictTrack,
+    AlongError, Continuation, MotionAnalysis, PassageKind, State, Stretches, Verdict, VerdictTrack,
     along_motion,
 };
 use tests::cranks::cranks;
@@ -66,7 +66,7 @@ fn driven(pivots: &[f64], start: f64, motion: Function) -> Mechanism {
 
 /// The only passage of a motion at which the rank drops: time, redundancy there, how the motion
 /// continues, and the text.
-fn one_drop(along: &Along) -> (f64, usize, Continuation, String) {
+fn one_drop(along: &MotionAnalysis) -> (f64, usize, Continuation, String) {
     let [passage] = along.passages.as_slice() else {
         panic!("one passage: {:?}", along.passages);
     };
@@ -214,7 +214,7 @@ fn a_flat_pose_that_is_nearly_reached_is_told_with_its_singular_value() {
 }
 
 /// The special instants of a component of the verdicts along a motion, with their words.
-fn special(along: &Along, reaction: usize, component: &str) -> Vec<(f64, &'static str)> {
+fn special(along: &MotionAnalysis, reaction: usize, component: &str) -> Vec<(f64, &'static str)> {
     let track = along.verdicts.reactions[reaction].component(component);
     let special = track.expect("a component").special().iter();
     special.map(|s| (s.time, s.verdict.word())).collect()
@@ -421,7 +421,7 @@ fn the_robot_has_one_verdict_and_one_stretch_with_another() {
 
 /// Runs a mechanism, and returns its motion by cubic interpolation between rows, and the verdicts
 /// of the run.
-fn recorded(p: &Prepared, options: &MotionOptions) -> (impl Fn(f64) -> State, Stretches) {
+fn recorded(p: &PreparedMechanism, options: &MotionOptions) -> (impl Fn(f64) -> State, Stretches) {
     let mut rows = Vec::new();
     let summary = simulate(p, options, |s| {
         let mut rate = vec![0.0; s.q.len()];
@@ -479,7 +479,7 @@ fn along_the_motion_of_an_example_the_verdicts_are_those_of_its_run() {
 /// The verdicts along a motion are those that a run read from its factors: of each component on the
 /// same stretches, with what is special at the start. Later rows of a run are less accurate: near a
 /// special instant they may be taken for one.
-fn assert_agree(along: &Along, run: &Stretches, layout: &Layout) {
+fn assert_agree(along: &MotionAnalysis, run: &Stretches, layout: &Layout) {
     assert_eq!(along.verdicts.reactions.len(), run.reactions.len());
     for (found, expected) in along.verdicts.reactions.iter().zip(&run.reactions) {
         let name = &layout.groups[found.id.0].name;

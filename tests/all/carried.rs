@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
 use dynamics::plan::Verdicts;
-use dynamics::{MotionOptions, Plan, Wanted};
+use dynamics::{MotionOptions, OutputRequest, Plan};
 use model::{Registry, System};
 use pfaff::{RunOptions, Study};
 use solvability::{CARRIED_VECTORS, Stretches};
@@ -107,9 +107,9 @@ fn verdicts_on_stretches_do_not_depend_on_instants() {
         let study = study.unwrap_or_else(|e| panic!("{name}: {e}"));
         let options = study.options.clone().expect("an end");
         let [all, few] = [Verdicts::WithInstants, Verdicts::OfRun].map(|verdicts| {
-            let wanted = Wanted {
+            let wanted = OutputRequest {
                 verdicts,
-                ..Wanted::default()
+                ..OutputRequest::default()
             };
             let plan = Plan::new(&study.prepared, &options, &wanted).expect("a plan");
             let run = plan.simulate(|_| Ok(ControlFlow::Continue(())));

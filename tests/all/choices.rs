@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
+use dynamics::{MotionOptions, PreparedMechanism, RowChoice, prepare, simulate};
 use joints::plane::{Direction, Line};
 use joints::{BodyPointForce, Fixed, PointForce, PointOnLine, Revolute, Velocity};
 use model::{
@@ -62,7 +62,7 @@ impl State {
     }
 }
 
-fn started(d: &Description, rows: &RowChoice) -> Prepared {
+fn started(d: &Description, rows: &RowChoice) -> PreparedMechanism {
     let mechanism = Mechanism::build(d).expect("builds");
     prepare(mechanism, &StartOptions::default(), rows).expect("starts")
 }

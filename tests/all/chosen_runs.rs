@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dynamics::plan::{Plan, Wanted};
+use dynamics::plan::{OutputRequest, Plan};
 use dynamics::{MotionFault, MotionOptions, Sample};
-use model::{ConstraintId, Known, Mechanism, Registry, System};
+use model::{ConfigurationAccuracy, ConstraintId, Mechanism, Registry, System};
 use pfaff::{RunOptions, Study};
 use solvability::{
     CARRIED_VECTORS, Choice, Compliance, NormWeights, Questions, ReactionVerdict, Solution,
@@ -94,11 +94,11 @@ fn compared(study: &Study, choices: &[Choice], t_end: f64) -> usize {
     let mechanism = &study.prepared.mechanism;
     let start = study.analyse(0.0, None).expect("decided");
     let named = choices.iter().map(|choice| start.named(choice));
-    let wanted = Wanted {
+    let wanted = OutputRequest {
         choices: named
             .collect::<Result<_, _>>()
             .unwrap_or_else(|e| panic!("{e}")),
-        ..Wanted::default()
+        ..OutputRequest::default()
     };
     let options = MotionOptions {
         output_step: t_end / 4.0,
@@ -120,7 +120,8 @@ fn compare(
     sample: &mut Sample<'_, '_>,
 ) -> Result<usize, MotionFault> {
     let (t, q) = (sample.t, sample.q.to_vec());
-    let analysis = analyse_known(mechanism, t, &q, Known::To(1e-8)).expect("decided");
+    let analysis =
+        analyse_known(mechanism, t, &q, ConfigurationAccuracy::To(1e-8)).expect("decided");
     let analysis = Arc::new(analysis);
     let questions = Questions::new(mechanism, &q, Arc::clone(&analysis));
     let solution = Solution {

@@ -2,9 +2,9 @@
 //! derived by hand.
 
 use model::{Description, Function, Mechanism, Scratch, StartOptions, System};
-use rank::{Limits, Settled};
+use rank::{Limits, StructureVerdict};
 use solvability::{
-    Allowed, Solvability, analyse_by_cycles, decide, explain, make_unique, structure,
+    DeletableRows, Solvability, analyse_by_cycles, decide, explain, make_unique, structure,
 };
 use tests::cranks::cranks;
 use tests::robot::robot;
@@ -76,7 +76,7 @@ fn id(case: &Case, name: &str) -> model::ConstraintId {
 }
 
 /// Rows (from 1) of the sets that make a reaction unique.
-fn sets(case: &Case, name: &str, allowed: &Allowed) -> Vec<Vec<usize>> {
+fn sets(case: &Case, name: &str, allowed: &DeletableRows) -> Vec<Vec<usize>> {
     let found = make_unique(
         &case.mechanism,
         &case.solvability,
@@ -113,7 +113,7 @@ fn the_robot_straight_turned_and_at_right_angles() {
             pairs
         );
         assert_eq!(
-            sets(&robot, "W3", &Allowed::Sensible),
+            sets(&robot, "W3", &DeletableRows::Sensible),
             alone,
             "{displacement}"
         );
@@ -123,7 +123,7 @@ fn the_robot_straight_turned_and_at_right_angles() {
 #[test]
 fn proposals_are_sentences_and_can_be_restricted() {
     let straight = described(&robot(Function::constant(0.0).expect("finite")));
-    let w3 = |allowed: &Allowed| {
+    let w3 = |allowed: &DeletableRows| {
         let (m, s) = (&straight.mechanism, &straight.solvability);
         let found = make_unique(m, s, id(&straight, "W3"), allowed, Limits::default());
         found
@@ -134,15 +134,15 @@ fn proposals_are_sentences_and_can_be_restricted() {
             .collect::<Vec<_>>()
     };
     assert_eq!(
-        w3(&Allowed::Sensible)[0],
+        w3(&DeletableRows::Sensible)[0],
         "relax row 4 (`B`, y) and delete `W4`"
     );
     assert_eq!(
-        w3(&Allowed::Whole),
+        w3(&DeletableRows::Whole),
         ["delete `W1` and delete `W4`", "delete `W2` and delete `W4`"]
     );
-    assert!(w3(&Allowed::Rows(vec![3, 17])).is_empty());
-    assert_eq!(sets(&straight, "A", &Allowed::Sensible), [[0; 0]]);
+    assert!(w3(&DeletableRows::Rows(vec![3, 17])).is_empty());
+    assert_eq!(sets(&straight, "A", &DeletableRows::Sensible), [[0; 0]]);
 }
 
 #[test]
@@ -150,7 +150,11 @@ fn structure_settles_the_trolley_and_parts_agree_with_the_whole() {
     let turned = steered(0.02);
     let found = structure(&turned.mechanism, &turned.s, &turned.q).expect("C is finite");
     for name in ["A", "W5"] {
-        assert_eq!(found.groups[id(&turned, name).0], Settled::Peeled, "{name}");
+        assert_eq!(
+            found.groups[id(&turned, name).0],
+            StructureVerdict::Peeled,
+            "{name}"
+        );
     }
     let mut two = cranks(&[0.0, 1.0, 1.7], 0.5, 1.0);
     let other = cranks(&[5.0, 6.0], 0.5, 0.0);
@@ -186,7 +190,7 @@ fn structure_settles_the_trolley_and_parts_agree_with_the_whole() {
                 .expect("rows exist")
                 .verdict;
             assert_eq!(part.wrench.verdict.word(), whole.word(), "{}", group.name);
-            if !matches!(settled, Settled::Open(_)) {
+            if !matches!(settled, StructureVerdict::Open(_)) {
                 assert_eq!(whole.word(), "unique", "{}", group.name);
             }
         }

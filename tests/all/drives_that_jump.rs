@@ -4,8 +4,8 @@
 use std::ops::ControlFlow;
 
 use dynamics::{
-    EventKind, Method, MotionError, MotionFault, MotionOptions, Prepared, RowChoice, prepare,
-    simulate,
+    EventKind, Method, MotionError, MotionFault, MotionOptions, PreparedMechanism, RowChoice,
+    prepare, simulate,
 };
 use joints::{
     Direction, Revolute, RevoluteAngleDrive, Translational, TranslationalDisplacementDrive,
@@ -16,7 +16,7 @@ const MASS: f64 = 2.0;
 const INERTIA: f64 = 0.3;
 
 /// A wheel on a pin, driven by angle.
-fn wheel(motion: Function) -> Prepared {
+fn wheel(motion: Function) -> PreparedMechanism {
     let d = Description {
         name: "wheel".into(),
         bodies: vec![Body {
@@ -93,7 +93,7 @@ fn a_jump_of_the_rate_is_an_impulse_with_its_energy() {
 
 /// A wheel with its centre off the pin, driven at 2 rad/s and from t = 1 at −1 rad/s, on one pin or
 /// on two at one place.
-fn eccentric(pins: usize) -> Prepared {
+fn eccentric(pins: usize) -> PreparedMechanism {
     let both = [BodyRef::Ground, BodyRef::Body(0)];
     let mut d = Description {
         name: "eccentric wheel".into(),
@@ -125,7 +125,7 @@ fn eccentric(pins: usize) -> Prepared {
 }
 
 /// The impulse of the run: for each joint and drive its components.
-fn impulses(prepared: &Prepared) -> Vec<Vec<(&'static str, Option<f64>, &'static str)>> {
+fn impulses(prepared: &PreparedMechanism) -> Vec<Vec<(&'static str, Option<f64>, &'static str)>> {
     let options = MotionOptions::to(2.0);
     let summary = simulate(prepared, &options, |_| Ok(ControlFlow::Continue(())));
     let summary = summary.unwrap_or_else(|e| panic!("{e}"));

@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use dynamics::{
-    Method, MotionOptions, Prepared, RowChoice, Stabilisation, Summary, prepare, simulate,
+    Method, MotionOptions, PreparedMechanism, RowChoice, Stabilisation, Summary, prepare, simulate,
 };
 use model::{Description, Mechanism, StartOptions, System};
 use serde::Deserialize;
@@ -52,7 +52,7 @@ struct Run {
 }
 
 impl Run {
-    fn of(p: &Prepared, options: &MotionOptions) -> Self {
+    fn of(p: &PreparedMechanism, options: &MotionOptions) -> Self {
         let mut run = Self {
             t: Vec::new(),
             q: Vec::new(),
@@ -110,7 +110,7 @@ fn gap(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
     )
 }
 
-fn started(d: &Description, rows: &RowChoice) -> Prepared {
+fn started(d: &Description, rows: &RowChoice) -> PreparedMechanism {
     let mechanism = Mechanism::build(d).expect("builds");
     prepare(mechanism, &StartOptions::default(), rows).expect("starts")
 }
@@ -189,7 +189,7 @@ fn what_cannot_be_dropped_is_refused_with_the_time() {
 }
 
 /// Φ of an output state, evaluated here.
-fn opening(p: &Prepared, t: f64, q: &[f64]) -> f64 {
+fn opening(p: &PreparedMechanism, t: f64, q: &[f64]) -> f64 {
     let mut s = p.mechanism.scratch();
     p.mechanism.pose(t, q, &mut s);
     p.mechanism.phi(&mut s);

@@ -9,8 +9,8 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use dynamics::{
-    CodeMismatch, CodeSpec, EventKind, Method, MotionOptions, NoCode, Plan, Prepared, RowChoice,
-    SceneCode, Stabilisation, Summary, Wanted, prepare, simulate,
+    CodeMismatch, CodeSpec, EventKind, Method, MotionOptions, NoCode, OutputRequest, Plan,
+    PreparedMechanism, RowChoice, SceneCode, Stabilisation, Summary, prepare, simulate,
 };
 use model::start::CorrectionLimit;
 use model::{BodyRef, Description, Drive, Function, Mechanism, StartOptions};
@@ -19,7 +19,7 @@ use tests::robot::{robot, steering};
 
 use elimination::{Elimination, Fault};
 
-fn started(d: &Description) -> Prepared {
+fn started(d: &Description) -> PreparedMechanism {
     let options = StartOptions {
         correction: CorrectionLimit::Any,
         ..StartOptions::default()
@@ -32,12 +32,12 @@ fn started(d: &Description) -> Prepared {
     .expect("starts")
 }
 
-fn trolley() -> Prepared {
+fn trolley() -> PreparedMechanism {
     started(&robot(steering()))
 }
 
 /// Rows of a run, [q; v; λ] each, and its summary.
-fn run(p: &Prepared, options: &MotionOptions) -> (Vec<Vec<f64>>, Summary) {
+fn run(p: &PreparedMechanism, options: &MotionOptions) -> (Vec<Vec<f64>>, Summary) {
     let mut rows = Vec::new();
     let summary = simulate(p, options, |row| {
         let lambda = row.multipliers()?.as_chosen().to_vec();
@@ -142,7 +142,7 @@ fn code_that_is_not_sure_is_left_and_comes_back() {
 }
 
 /// Cranks whose first one is driven.
-fn driven(pivots: &[f64], start: f64, motion: Function) -> Prepared {
+fn driven(pivots: &[f64], start: f64, motion: Function) -> PreparedMechanism {
     let mut d = cranks(pivots, 0.5, start);
     d.drives.push(Drive {
         tolerance: None,
@@ -241,7 +241,7 @@ fn a_healthy_run_asks_the_interpreter_nothing() {
     };
     let code = Elimination::new(&p, Fault::None);
     let mut coded = p.clone().with_code(code.clone()).expect("its own");
-    let last = |p: &Prepared| {
+    let last = |p: &PreparedMechanism| {
         let mut last = Vec::new();
         let summary = simulate(p, &options, |row| {
             last = [row.q, row.v].concat();
@@ -343,12 +343,12 @@ fn the_plan_says_whether_code_is_used_and_why_not() {
     let p = trolley();
     let coded = p.clone().with_code(Elimination::new(&p, Fault::None));
     let coded = coded.expect("its own");
-    let planned = |p: &Prepared, method| {
+    let planned = |p: &PreparedMechanism, method| {
         let options = MotionOptions {
             method,
             ..MotionOptions::to(1.0)
         };
-        let plan = Plan::new(p, &options, &Wanted::default()).expect("a plan");
+        let plan = Plan::new(p, &options, &OutputRequest::default()).expect("a plan");
         (plan.code.value, plan.code.reason, plan.apart.reason)
     };
     let (used, _, apart) = planned(&coded, Method::Auto);
@@ -424,7 +424,7 @@ fn code_of_another_mechanism_is_refused() {
 fn runs_that_code_cannot_serve_say_why() {
     let p = trolley();
     let options = MotionOptions::to(1.0);
-    let why = |p: &Prepared, options: &MotionOptions| p.code_for(options).err();
+    let why = |p: &PreparedMechanism, options: &MotionOptions| p.code_for(options).err();
     assert_eq!(why(&p, &options), Some(NoCode::None));
     let coded = p
         .clone()

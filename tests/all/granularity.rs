@@ -10,8 +10,8 @@ use model::start::{
     Coordinate, KeepLevel, Metric, assemble, consistent_velocity, nearest_configuration,
 };
 use model::{
-    Body, BodyRef, ConstraintId, Description, Drive, Frame, Function, Joint, Known, Mechanism,
-    StartError, StartOptions, System,
+    Body, BodyRef, ConfigurationAccuracy, ConstraintId, Description, Drive, Frame, Function, Joint,
+    Mechanism, StartError, StartOptions, System,
 };
 use pfaff::{RunOptions, Study, StudyError};
 use solvability::{
@@ -46,7 +46,7 @@ fn described(bodies: Vec<Body>, joints: Vec<Joint>) -> Mechanism {
 
 fn groups(m: &Mechanism, q: &[f64], groups: &[Group]) -> Result<Vec<GroupVerdict>, RequestError> {
     // The robot is steered at t = 1; the other mechanisms here are at rest at any time.
-    let decision = analyse_known(m, 1.0, q, Known::To(1e-12))
+    let decision = analyse_known(m, 1.0, q, ConfigurationAccuracy::To(1e-12))
         .expect("C is finite")
         .whole()
         .expect("one part")
@@ -84,7 +84,7 @@ fn robot_steered(displacement: f64) -> (Mechanism, Vec<f64>) {
 #[test]
 fn frames_of_the_robot() {
     let (m, q) = robot_steered(0.02);
-    let decision = analyse_known(&m, 1.0, &q, Known::To(1e-12))
+    let decision = analyse_known(&m, 1.0, &q, ConfigurationAccuracy::To(1e-12))
         .expect("C is finite")
         .whole()
         .expect("one part")

@@ -4,7 +4,8 @@
 use std::ops::ControlFlow;
 
 use dynamics::{
-    KeptRowMotion, Method, MotionOptions, Prepared, Reduced, RowChoice, prepare, simulate,
+    KeptRowMotion, Method, MotionOptions, PreparedMechanism, ReducedJacobian, RowChoice, prepare,
+    simulate,
 };
 use joints::{Bushing, Direction, KnifeEdge, SpringDamper, TorsionSpringDamper};
 use model::{Body, BodyRef, Description, Force, ForceKernels, Joint, Mechanism, StartOptions};
@@ -12,13 +13,13 @@ use tests::cranks::cranks;
 use tests::largest;
 use tests::robot::{robot, steering};
 
-fn prepared(d: &Description) -> Prepared {
+fn prepared(d: &Description) -> PreparedMechanism {
     let mechanism = Mechanism::build(d).expect("a mechanism");
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("a start")
 }
 
 /// A state `[q; v; work]` on the constraints, in motion.
-fn state_at(p: &Prepared, t: f64) -> Vec<f64> {
+fn state_at(p: &PreparedMechanism, t: f64) -> Vec<f64> {
     let mut y = Vec::new();
     let options = MotionOptions::to(t);
     simulate(p, &options, |row| {
@@ -55,7 +56,7 @@ fn sprung_cranks() -> Description {
 }
 
 /// The mechanisms, at times when all bodies move: the robot is steered at 1.5 s.
-fn cases() -> [(&'static str, Prepared, f64); 2] {
+fn cases() -> [(&'static str, PreparedMechanism, f64); 2] {
     [
         ("cranks", prepared(&sprung_cranks()), 0.4),
         ("robot", prepared(&robot(steering())), 1.5),
@@ -74,7 +75,7 @@ fn the_jacobian_is_the_difference_of_the_motion() {
     for (name, p, t) in cases() {
         let y = state_at(&p, t);
         let mut motion = KeptRowMotion::new(&p).expect("rows");
-        let mut reduced = Reduced::new(&motion);
+        let mut reduced = ReducedJacobian::new(&motion);
         reduced.linearise(&mut motion, t, &y).expect("a Jacobian");
         let (jacobian, places) = (reduced.columns(), places_of_w(&motion, p.q.len()));
         let size = jacobian.max_abs();
@@ -135,7 +136,7 @@ fn shifted_systems_are_solved() {
     let (_, p, t) = &cases()[0];
     let y = state_at(p, *t);
     let mut motion = KeptRowMotion::new(p).expect("rows");
-    let mut reduced = Reduced::new(&motion);
+    let mut reduced = ReducedJacobian::new(&motion);
     reduced.linearise(&mut motion, *t, &y).expect("a Jacobian");
     let (sigma, [alpha, beta]) = (3.0, [2.0, 5.0]);
     reduced.factor(sigma, [alpha, beta]).expect("regular");
@@ -238,7 +239,7 @@ mod held {
 }
 
 /// Number of steps and the errors of angle and angular velocity of the held crank after 2 s.
-fn held_crank(p: &Prepared, rtol: f64) -> (u64, f64, f64) {
+fn held_crank(p: &PreparedMechanism, rtol: f64) -> (u64, f64, f64) {
     let options = MotionOptions {
         method: Method::Radau5,
         rtol,
@@ -327,7 +328,7 @@ fn partitions_are_renewed_as_a_blade_turns() {
 /// forms of the same motion.
 #[test]
 fn all_ways_lead_along_one_motion() {
-    let end = |p: &Prepared, t: f64, method: Method| {
+    let end = |p: &PreparedMechanism, t: f64, method: Method| {
         let options = MotionOptions {
             method,
             rtol: 1e-9,

@@ -7,8 +7,8 @@ use exact::{Dyadic, Exact};
 use model::{ConstraintId, Mechanism, System};
 use rank::Limits;
 use solvability::{
-    Allowed, Analysis, Choice, Chosen, Distribution, Group, GroupVerdict, NormWeights, Questions,
-    Solution, Value, Verdict, analyse, analyse_by_cycles,
+    Analysis, Choice, ChosenValues, DeletableRows, Distribution, Group, GroupVerdict, NormWeights,
+    Questions, Solution, Value, Verdict, analyse, analyse_by_cycles,
 };
 use tests::numbers::Numbers;
 
@@ -129,7 +129,7 @@ fn questions_are_answered_by_parts_as_by_the_whole() {
             .collect();
         let solution = Solution {
             acceleration: vec![0.0; mechanism.layout().n_v],
-            multipliers: Chosen::new(multipliers, Vec::new()),
+            multipliers: ChosenValues::new(multipliers, Vec::new()),
             no_finite: Vec::new(),
         };
         let least = Choice::MinimumNorm(NormWeights::NEWTON_METRE);
@@ -161,7 +161,7 @@ fn questions_are_answered_by_parts_as_by_the_whole() {
         }
         let limits = Limits::default();
         let ways = |q: &Questions<'_>| {
-            let found = q.make_unique(a, &Allowed::Sensible, limits).ok()?;
+            let found = q.make_unique(a, &DeletableRows::Sensible, limits).ok()?;
             let complete = found.complete;
             let rows: BTreeSet<Vec<usize>> = found.ways.into_iter().map(|w| w.rows).collect();
             complete.then_some(rows)

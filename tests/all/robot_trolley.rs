@@ -3,8 +3,8 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
-use model::{Function, Known, Mechanism, Reaction, Registry, StartOptions, System};
+use dynamics::{MotionOptions, PreparedMechanism, RowChoice, prepare, simulate};
+use model::{ConfigurationAccuracy, Function, Mechanism, Reaction, Registry, StartOptions, System};
 use pfaff::{AssembledScene, RunOptions};
 use serde::Deserialize;
 use solvability::{Analysis, Solvability, analyse, analyse_known};
@@ -37,12 +37,12 @@ struct Row {
     reactions: Vec<Reaction>,
 }
 
-fn prepared(rows: &RowChoice) -> Prepared {
+fn prepared(rows: &RowChoice) -> PreparedMechanism {
     let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
     prepare(mechanism, &StartOptions::default(), rows).expect("the robot starts")
 }
 
-fn run(prepared: &Prepared, options: &MotionOptions) -> (Vec<Row>, dynamics::Summary) {
+fn run(prepared: &PreparedMechanism, options: &MotionOptions) -> (Vec<Row>, dynamics::Summary) {
     let mut rows = Vec::new();
     let summary = simulate(prepared, options, |sample| {
         let (a, reactions) = (
@@ -122,7 +122,7 @@ fn motion_agrees_with_the_reference() {
 #[test]
 fn variants_differ_in_non_unique_reactions_only() {
     let drops = [[6, 21], [18, 21], [19, 21]];
-    let runs: Vec<(Prepared, Vec<Row>)> = drops
+    let runs: Vec<(PreparedMechanism, Vec<Row>)> = drops
         .iter()
         .map(|d| {
             let choice = RowChoice::Drop(d.iter().map(|r| r - 1).collect());
@@ -218,7 +218,7 @@ fn ranks_and_verdicts_hold_along_the_motion() {
 }
 
 /// Pairs of rows (from 1) whose deletion keeps the motion.
-fn admissible_pairs(p: &Prepared, t: f64, q: &[f64]) -> Vec<[usize; 2]> {
+fn admissible_pairs(p: &PreparedMechanism, t: f64, q: &[f64]) -> Vec<[usize; 2]> {
     let mut s = p.mechanism.scratch();
     p.mechanism.pose(t, q, &mut s);
     p.mechanism.c(&mut s);
@@ -316,7 +316,8 @@ fn steered_edges_at_a_right_angle_split_the_circuits() {
         })
         .expect("the robot steers at rest");
         // The displacement is accurate to 13 digits, and so are the angles of the edges.
-        let analysis = analyse_known(&p.mechanism, 1.0, &q, Known::To(1e-12)).expect("C is finite");
+        let analysis = analyse_known(&p.mechanism, 1.0, &q, ConfigurationAccuracy::To(1e-12))
+            .expect("C is finite");
         assert_eq!(non_unique_rows(&analysis), [3, 5, 18, 19, 20, 21]);
         assert_eq!(analysis.decision.rank, 20);
         let components = rank::components(&analysis.whole().expect("one part"));
@@ -336,7 +337,7 @@ fn steered_edges_at_a_right_angle_split_the_circuits() {
 }
 
 /// C at a configuration, and the verdicts of its multipliers.
-fn solvability_at(p: &Prepared, t: f64, q: &[f64]) -> (linalg::Matrix, Solvability) {
+fn solvability_at(p: &PreparedMechanism, t: f64, q: &[f64]) -> (linalg::Matrix, Solvability) {
     let mut s = p.mechanism.scratch();
     p.mechanism.pose(t, q, &mut s);
     p.mechanism.c(&mut s);

@@ -5,7 +5,7 @@
 use joints::RevoluteAngleDrive;
 use linalg::Matrix;
 use model::{BodyRef, Description, Drive, Function, Mechanism, System};
-use solvability::{Continuation, Undetermined, decide, is_locked, second_order};
+use solvability::{Continuation, SecondOrderDoubt, decide, is_locked, second_order};
 use tests::cranks::cranks;
 use tests::{largest, revolute, rod};
 
@@ -164,7 +164,7 @@ fn a_row_of_four_bars_bifurcates_at_each_coupler() {
 #[test]
 fn what_is_not_decided_is_said() {
     let d = driven(four_bars(5), 2.0);
-    let reason = Undetermined::Kernel { found: 5, most: 4 };
+    let reason = SecondOrderDoubt::Kernel { found: 5, most: 4 };
     assert_eq!(at_flat(&d, 6, &[]), (5, Continuation::Undetermined(reason)));
     // A motion that cannot continue.
     let d = cranks(&[0.0, PITCH], LENGTH, 0.0);
@@ -174,7 +174,7 @@ fn what_is_not_decided_is_said() {
     assert!(
         matches!(
             found,
-            Continuation::Undetermined(Undetermined::Irregular { .. })
+            Continuation::Undetermined(SecondOrderDoubt::Irregular { .. })
         ),
         "{found:?}"
     );

@@ -11,7 +11,7 @@ use tests::cranks::cranks;
 use tests::robot::{robot, robot_of_size, steering, steering_of_size};
 
 /// The motor rotates crank 1 with ω = 1 from `start`.
-fn driven(pivots: &[f64], start: f64) -> dynamics::Prepared {
+fn driven(pivots: &[f64], start: f64) -> dynamics::PreparedMechanism {
     let mut d = cranks(pivots, 0.5, start);
     let element = RevoluteAngleDrive::new([0.0; 2], [0.0; 2]);
     d.drives.push(Drive {

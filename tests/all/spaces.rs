@@ -4,7 +4,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{EventKind, Method, MotionOptions, Prepared, RowChoice, prepare, simulate};
+use dynamics::{EventKind, Method, MotionOptions, PreparedMechanism, RowChoice, prepare, simulate};
 use model::space::{difference, norm};
 use model::start::CorrectionLimit;
 use model::{Bodies, BodyRef, Description, Mechanism, Registry, StartOptions, System};
@@ -12,7 +12,7 @@ use solvability::{ReactionVerdict, analyse};
 use tests::cranks::cranks;
 
 /// A mechanism in both spaces, the ordinary one first.
-fn both(d: &Description, start: &StartOptions) -> [Prepared; 2] {
+fn both(d: &Description, start: &StartOptions) -> [PreparedMechanism; 2] {
     let built = || Mechanism::build(d).expect("a mechanism");
     [built(), built().on_unit_circle()].map(|mechanism| {
         let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
@@ -54,7 +54,7 @@ fn apart(a: &Bodies, b: &Bodies, size: f64) -> f64 {
 type Rows = Vec<(f64, Bodies, Vec<f64>)>;
 
 /// A run, and its singular passages and exchanges of rows: time and kind.
-fn run(p: &Prepared, options: &MotionOptions) -> (Rows, Vec<(f64, EventKind)>) {
+fn run(p: &PreparedMechanism, options: &MotionOptions) -> (Rows, Vec<(f64, EventKind)>) {
     let mut rows = Rows::new();
     let done = simulate(p, options, |row| {
         rows.push((
@@ -71,7 +71,7 @@ fn run(p: &Prepared, options: &MotionOptions) -> (Rows, Vec<(f64, EventKind)>) {
 }
 
 /// Compares both runs: the largest difference of poses, and of velocities relative to the largest.
-fn gaps(two: &[Prepared; 2], options: &MotionOptions) -> (f64, f64) {
+fn gaps(two: &[PreparedMechanism; 2], options: &MotionOptions) -> (f64, f64) {
     let [(plain, _), (circle, _)] = [&two[0], &two[1]].map(|p| run(p, options));
     let size = two[0].assembly.size;
     assert_eq!(plain.len(), circle.len());

@@ -4,7 +4,7 @@
 use dynamics::{KeptRowMotion, RowChoice, prepare};
 use model::{BodyRef, Description, Mechanism, StartOptions, System};
 use serde_json::Value;
-use solvability::Chosen;
+use solvability::ChosenValues;
 use tests::cranks::cranks;
 use tests::{largest, rod};
 
@@ -50,7 +50,7 @@ fn every_number_of_the_case() {
 
     let mut motion = KeptRowMotion::new(&p).expect("moves");
     let mut a = vec![0.0; 12];
-    let mut lambda = Chosen::new(vec![0.0; 12], Vec::new());
+    let mut lambda = ChosenValues::new(vec![0.0; 12], Vec::new());
     motion
         .acceleration(0.0, &p.q, &p.v, &mut a)
         .expect("regular");

@@ -5,7 +5,7 @@ use std::hint::black_box;
 use divan::Bencher;
 use model::{ConstraintId, Function, Mechanism, Scratch, System};
 use rank::Limits;
-use solvability::{Allowed, Solvability, certify, explain, make_unique};
+use solvability::{DeletableRows, Solvability, certify, explain, make_unique};
 use tests::robot::robot;
 
 fn main() {
@@ -54,7 +54,7 @@ fn making_w3_unique(bencher: Bencher<'_, '_>) {
             &m,
             &solvability,
             ConstraintId(w3),
-            &Allowed::Sensible,
+            &DeletableRows::Sensible,
             Limits::default(),
         )
     };

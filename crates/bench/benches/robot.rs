@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use divan::Bencher;
-use dynamics::{KeptRowMotion, MotionOptions, Prepared, RowChoice, prepare, simulate};
+use dynamics::{KeptRowMotion, MotionOptions, PreparedMechanism, RowChoice, prepare, simulate};
 use joints::{Element, Pose, Revolute, Twist};
 use model::{Mechanism, StartOptions, System};
 use tests::robot::{robot, steering};
@@ -14,7 +14,7 @@ fn main() {
     divan::main();
 }
 
-fn prepared() -> Prepared {
+fn prepared() -> PreparedMechanism {
     let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("the robot starts")
 }

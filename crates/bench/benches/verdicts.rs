@@ -5,7 +5,7 @@
 use std::hint::black_box;
 
 use divan::Bencher;
-use dynamics::{Prepared, RowChoice, prepare};
+use dynamics::{PreparedMechanism, RowChoice, prepare};
 use linalg::{DdMatrix, Matrix};
 use model::{Mechanism, RowRanges, StartOptions, System};
 use solvability::Solvability;
@@ -16,7 +16,7 @@ fn main() {
 }
 
 /// The robot at its start.
-fn prepared() -> Prepared {
+fn prepared() -> PreparedMechanism {
     let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("the robot starts")
 }

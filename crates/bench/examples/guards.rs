@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Instant;
 
-use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
+use dynamics::{MotionOptions, PreparedMechanism, RowChoice, prepare, simulate};
 use model::{Mechanism, StartOptions};
 use robot_trolley::generated::automatic;
 use tests::robot::{robot, steering};
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Least time and number of evaluations.
-fn least(prepared: &Prepared, runs: usize) -> Result<(f64, u64), Box<dyn Error>> {
+fn least(prepared: &PreparedMechanism, runs: usize) -> Result<(f64, u64), Box<dyn Error>> {
     let options = MotionOptions::to(10.0);
     let (mut least, mut evaluations) = (f64::INFINITY, 0);
     for _ in 0..runs {

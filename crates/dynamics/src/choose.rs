@@ -6,9 +6,9 @@ use crate::error::MotionFault;
 use crate::limits::{POWER_ITERATIONS, STABLE, STIFF};
 use crate::motion::KeptRowMotion;
 use crate::options::{Method, MotionOptions, Stabilisation};
-use crate::plan::Decided;
-use crate::prepare::Prepared;
-use crate::run::{Reduced, derivatives};
+use crate::plan::Decision;
+use crate::prepare::PreparedMechanism;
+use crate::run::{ReducedJacobian, derivatives};
 
 /// The method of a run: the given one, or Dormand–Prince 8(5,3), or Radau IIA if forces make the
 /// motion stiff at its start. A mechanism without a degree of freedom leaves an implicit method no
@@ -17,9 +17,9 @@ use crate::run::{Reduced, derivatives};
 /// # Errors
 /// If the motion has no Jacobian at the start, or never has one because a force calls a function.
 pub(crate) fn method(
-    prepared: &Prepared,
+    prepared: &PreparedMechanism,
     options: &MotionOptions,
-) -> Result<Decided<Method>, MotionFault> {
+) -> Result<Decision<Method>, MotionFault> {
     let explicit = |why: &str| Ok(decided(Method::Dop853, why.to_owned()));
     let may_be_implicit = matches!(options.method, Method::Auto | Method::Radau5);
     if may_be_implicit && prepared.is_function_of_time(options) {
@@ -67,14 +67,14 @@ pub(crate) fn method(
     Ok(decided(method, why))
 }
 
-fn decided(value: Method, reason: String) -> Decided<Method> {
-    Decided::new(value, value.name(), reason)
+fn decided(value: Method, reason: String) -> Decision<Method> {
+    Decision::new(value, value.name(), reason)
 }
 
 /// The largest |λ| (1/s) of the motion on independent coordinates at the start.
-fn fastest_rate(prepared: &Prepared) -> Result<f64, MotionFault> {
+fn fastest_rate(prepared: &PreparedMechanism) -> Result<f64, MotionFault> {
     let mut motion = KeptRowMotion::new(prepared)?;
-    let mut reduced = Reduced::new(&motion);
+    let mut reduced = ReducedJacobian::new(&motion);
     let y = [prepared.q.as_slice(), &prepared.v].concat();
     reduced.linearise(&mut motion, 0.0, &y)?;
     Ok(spectral_radius(reduced.jacobian()))

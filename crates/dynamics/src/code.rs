@@ -1,6 +1,6 @@
 //! The interface between a run and straight-line code that was generated for one mechanism. How
 //! such code is generated is described elsewhere; when a run may use it is decided by
-//! [`Prepared::code_for`](crate::Prepared::code_for).
+//! [`PreparedMechanism::code_for`](crate::PreparedMechanism::code_for).
 //!
 //! Generated code has fixed kept rows and a fixed order of elimination, so it cannot choose new
 //! pivots. Instead it reports the quality of its pivots, its *health*: the smallest ratio of a

@@ -3,7 +3,7 @@
 
 /// Kinds of work that are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Counted {
+pub(crate) enum WorkKind {
     /// Allocating storage for the linear systems of implicit methods.
     LinearSystems,
     /// Solving for multipliers at a row of output.
@@ -18,7 +18,7 @@ pub(crate) enum Counted {
 
 /// Counts one piece of work.
 #[inline]
-pub(crate) fn note(work: Counted) {
+pub(crate) fn note(work: WorkKind) {
     #[cfg(test)]
     COUNTS.with_borrow_mut(|counts| counts[work as usize] += 1);
     let _ = work;
@@ -32,7 +32,7 @@ thread_local! {
 
 /// Counts the work that `run` does on this thread, by kind.
 #[cfg(test)]
-pub(crate) fn counted(run: impl FnOnce()) -> impl Fn(Counted) -> usize {
+pub(crate) fn counted(run: impl FnOnce()) -> impl Fn(WorkKind) -> usize {
     let before = COUNTS.with_borrow(|counts| *counts);
     run();
     let after = COUNTS.with_borrow(|counts| *counts);

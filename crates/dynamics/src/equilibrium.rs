@@ -21,13 +21,13 @@ use crate::limits::{
     REST_LEFT, REST_LONGEST, REST_PUSH, REST_PUSHES, REST_RADIUS, REST_ROUNDINGS, REST_SHORTEST,
     REST_STALLED, REST_STEPS, UNRESISTED, UNRESISTED_FORCE, UNRESISTED_STEPS,
 };
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 use balance::{Balance, Statics};
 use linalg::kernels::{dot, norm};
 use model::StartError;
 use stiffness::{Stiffness, Way};
 
-pub use error::{EquilibriumError, Pushed};
+pub use error::{EquilibriumError, UnbalancedForce};
 
 /// What is asked of a search for a place of rest.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -141,7 +141,7 @@ impl RestStability {
 /// - [`EquilibriumError::Start`], [`EquilibriumError::NotFinite`]: a configuration on the way
 ///   cannot be reached, or a force has no value there.
 pub fn equilibrium(
-    prepared: &Prepared,
+    prepared: &PreparedMechanism,
     options: &EquilibriumOptions,
 ) -> Result<Equilibrium, EquilibriumError> {
     if let Some(force) = prepared.mechanism.applied_forces().called().next() {
@@ -153,7 +153,7 @@ pub fn equilibrium(
     if !falls.is_empty() {
         return Err(EquilibriumError::Pushed(falls));
     }
-    let mut search = Search {
+    let mut search = EquilibriumSearch {
         at: statics.balance(prepared.q.clone())?,
         statics,
         radius: REST_RADIUS,
@@ -169,7 +169,7 @@ pub fn equilibrium(
 
 /// What falls freely at the configuration q and time t and what pushes it, in words: nothing ties
 /// it to the ground. `None` if nothing does for sure.
-pub(crate) fn falling(prepared: &Prepared, t: f64, q: &[f64]) -> Option<String> {
+pub(crate) fn falling(prepared: &PreparedMechanism, t: f64, q: &[f64]) -> Option<String> {
     let mut statics = Statics::new(prepared);
     statics.t = t;
     let falls = fall::falls(&mut statics, q);
@@ -177,7 +177,7 @@ pub(crate) fn falling(prepared: &Prepared, t: f64, q: &[f64]) -> Option<String> 
 }
 
 /// A search, step by step.
-struct Search<'m> {
+struct EquilibriumSearch<'m> {
     statics: Statics<'m>,
     at: Balance,
     /// Longest step, for each body (sizes of the mechanism, radians).
@@ -191,7 +191,7 @@ struct Search<'m> {
     stalled: usize,
 }
 
-impl Search<'_> {
+impl EquilibriumSearch<'_> {
     /// Moves to a place of rest; returns the stiffness there.
     fn run(&mut self, options: &EquilibriumOptions) -> Result<Stiffness, EquilibriumError> {
         loop {
@@ -261,7 +261,7 @@ impl Search<'_> {
     }
 
     /// What is pushed where the search is.
-    fn pushed(&mut self) -> Vec<Pushed> {
+    fn pushed(&mut self) -> Vec<UnbalancedForce> {
         let size = norm(&self.at.free);
         let along: Vec<f64> = self.at.free.iter().map(|f| f / size).collect();
         words::pushed(&mut self.statics, &self.at, &along)
@@ -336,7 +336,7 @@ impl Search<'_> {
     fn finish(
         self,
         stiffness: &Stiffness,
-        prepared: &Prepared,
+        prepared: &PreparedMechanism,
     ) -> Result<Equilibrium, EquilibriumError> {
         let depends_on_way = prepared.decision.rank > prepared.position_decision.rank;
         let (idle, falling) = (stiffness.idle(), stiffness.falling());

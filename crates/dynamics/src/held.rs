@@ -4,9 +4,9 @@
 use model::{Mechanism, System};
 
 use crate::limits::RESTING_RATE;
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 
-impl Prepared {
+impl PreparedMechanism {
     /// The same with functions of time that keep the values that they have at t, for a state at
     /// rest: [`Mechanism::held_at`].
     #[must_use]

@@ -43,10 +43,10 @@ pub use events::{Event, EventKind, ReactionImpulse};
 pub use manifold::Correction;
 pub use motion::KeptRowMotion;
 pub use options::{FORMULATION, Method, MotionOptions, RowChoice, Stabilisation};
-pub use plan::{Plan, Wanted};
-pub use prepare::{Prepared, prepare, prepare_after, start_velocity, unmovable};
+pub use plan::{OutputRequest, Plan};
+pub use prepare::{PreparedMechanism, prepare, prepare_after, start_velocity, unmovable};
 pub use run::{
-    ChosenReactions, ComponentSummary, DroppedRows, Failure, Reduced, Sample, Stop, Summary,
-    simulate, simulate_until,
+    ChosenReactions, ComponentSummary, DroppedRows, Failure, ReducedJacobian, Sample, Stop,
+    Summary, simulate, simulate_until,
 };
 pub use solve::Misfit;

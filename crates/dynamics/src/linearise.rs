@@ -28,11 +28,11 @@ use model::System;
 use crate::error::MotionFault;
 use crate::held::{accelerated, rests};
 use crate::motion::KeptRowMotion;
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 use bases::Bases;
-use chosen::Chosen;
+use chosen::CoordinateChoice;
 use curve::{Curves, Derivative};
-use followed::Followed;
+use followed::FollowedCoordinates;
 use reduce::reduce;
 
 pub use coordinate::Coordinate;
@@ -63,7 +63,7 @@ pub struct LineariseOptions {
 /// - [`LineariseError::NotASymmetry`]: the motion depends on a coordinate that is followed.
 /// - [`LineariseError::Fault`]: the equations have no solution there, or a force calls a function.
 pub fn linearise(
-    prepared: &Prepared,
+    prepared: &PreparedMechanism,
     (t, q, v): (f64, &[f64], &[f64]),
     options: &LineariseOptions,
 ) -> Result<Linearisation, LineariseError> {
@@ -83,10 +83,10 @@ pub fn linearise(
         None => Vec::new(),
     };
     let prepared = at_rest.as_ref().unwrap_or(prepared);
-    let followed = Followed::of(&prepared.mechanism, (q, v), &options.follow)?;
+    let followed = FollowedCoordinates::of(&prepared.mechanism, (q, v), &options.follow)?;
     let mut curves = Curves::new(KeptRowMotion::new(prepared)?, prepared, (t, q, v))?;
     curves.check_steady(followed.turning)?;
-    let chosen = Chosen::new(&curves, &followed, &options.coordinates)?;
+    let chosen = CoordinateChoice::new(&curves, &followed, &options.coordinates)?;
     let bases = Bases::new(&curves, &chosen)?;
 
     let mut columns = Vec::new();

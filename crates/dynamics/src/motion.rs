@@ -4,25 +4,25 @@
 //! and polished point on, which does not change the motion.
 
 use model::{Mechanism, Scratch, System};
-use solvability::Chosen;
+use solvability::ChosenValues;
 
 use crate::code::SceneCode;
-use crate::counts::{Counted, note};
+use crate::counts::{WorkKind, note};
 use crate::error::MotionFault;
 use crate::events::Event;
 use crate::guards::GUARDED;
 use crate::manifold::{Correction, Manifold, Origin, inspect};
 use crate::options::MotionOptions;
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 use crate::solve::{Accelerations, Evaluation, KeptEquations, KeptRows, Misfits, State};
-use crate::watch::{CodeSwitch, Next, Watch, are_worn};
+use crate::watch::{CodeSwitch, Monitors, Next, are_worn};
 
 /// A mechanism on kept rows. All storage is allocated here; accelerations and projections do not
 /// allocate.
 pub struct KeptRowMotion<'m> {
     pub(crate) equations: KeptEquations<'m>,
     pub(crate) manifold: Manifold,
-    pub(crate) watch: Watch,
+    pub(crate) watch: Monitors,
     /// Generated code, if there is some that can be used.
     pub(crate) code: Option<CodeSwitch<'m>>,
 }
@@ -32,7 +32,7 @@ impl<'m> KeptRowMotion<'m> {
     ///
     /// # Errors
     /// If more rows are kept than there are velocities.
-    pub fn new(prepared: &'m Prepared) -> Result<Self, MotionFault> {
+    pub fn new(prepared: &'m PreparedMechanism) -> Result<Self, MotionFault> {
         Self::interpreted(prepared, &MotionOptions::to(0.0))
     }
 
@@ -42,14 +42,17 @@ impl<'m> KeptRowMotion<'m> {
     /// # Errors
     /// As [`KeptRowMotion::new`]; also if no independent coordinates can be chosen for an implicit
     /// method.
-    pub fn with(prepared: &'m Prepared, options: &MotionOptions) -> Result<Self, MotionFault> {
+    pub fn with(
+        prepared: &'m PreparedMechanism,
+        options: &MotionOptions,
+    ) -> Result<Self, MotionFault> {
         Self::evaluated(prepared, options, None)
     }
 
     /// Like [`KeptRowMotion::with`]; the generated code, if it is used, is evaluated by
     /// `evaluator`.
     pub(crate) fn evaluated(
-        prepared: &'m Prepared,
+        prepared: &'m PreparedMechanism,
         options: &MotionOptions,
         evaluator: Option<&'m dyn SceneCode>,
     ) -> Result<Self, MotionFault> {
@@ -67,7 +70,10 @@ impl<'m> KeptRowMotion<'m> {
         Ok(motion)
     }
 
-    fn interpreted(prepared: &'m Prepared, options: &MotionOptions) -> Result<Self, MotionFault> {
+    fn interpreted(
+        prepared: &'m PreparedMechanism,
+        options: &MotionOptions,
+    ) -> Result<Self, MotionFault> {
         let at = Evaluation::new(&prepared.mechanism, prepared.assembly.size);
         let of_c = prepared.decision.kept.len();
         let velocity = KeptRows::new(&at, &prepared.decision, of_c)?;
@@ -84,7 +90,7 @@ impl<'m> KeptRowMotion<'m> {
         }
         Ok(Self {
             manifold: Manifold::new(&equations.at, options.stabilisation, horizon),
-            watch: Watch::new(&prepared.choice, options),
+            watch: Monitors::new(&prepared.choice, options),
             equations,
             code: None,
         })
@@ -235,7 +241,7 @@ impl<'m> KeptRowMotion<'m> {
         t: f64,
         q: &[f64],
         v: &[f64],
-        lambda: &mut Chosen<f64>,
+        lambda: &mut ChosenValues<f64>,
     ) -> Result<(), MotionFault> {
         lambda.choose(self.equations.without_multiplier());
         self.write_multipliers(t, q, v, lambda.to_be_written())
@@ -249,7 +255,7 @@ impl<'m> KeptRowMotion<'m> {
         v: &[f64],
         lambda: &mut [f64],
     ) -> Result<(), MotionFault> {
-        note(Counted::Multipliers);
+        note(WorkKind::Multipliers);
         let state = State { t, q, v };
         let code = self.code.as_mut().and_then(CodeSwitch::in_use);
         if code.is_some_and(|code| code.multipliers(state, lambda).is_ok()) {
@@ -340,7 +346,7 @@ impl<'m> KeptRowMotion<'m> {
         a: &[f64],
         lambda: &mut [f64],
     ) -> Result<(), MotionFault> {
-        note(Counted::Multipliers);
+        note(WorkKind::Multipliers);
         self.equations.multipliers_for(a, lambda)
     }
 

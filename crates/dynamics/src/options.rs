@@ -113,7 +113,7 @@ pub struct MotionOptions {
     /// Treatment of drift.
     pub stabilisation: Stabilisation,
     /// Rows to keep, as passed to [`crate::prepare()`]. A run uses the rows of its
-    /// [`crate::Prepared`].
+    /// [`crate::PreparedMechanism`].
     pub rows: RowChoice,
     /// Number of components that compute at the same time if there are several; `None` allows all
     /// of them. Results do not depend on it.

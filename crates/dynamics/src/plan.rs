@@ -17,18 +17,18 @@ use crate::choose;
 use crate::code::NoCode;
 use crate::error::MotionError;
 use crate::options::MotionOptions;
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 use solvability::{Group, NamedChoice};
 
 pub use component::ComponentPlan;
-pub use decided::{Decided, Line};
+pub use decided::{Decision, Line};
 pub use decisions::Decisions;
 pub use saving::{Cost, Saving};
 pub use sizes::Sizes;
 
 /// The requested output of a motion. Other values are not computed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wanted {
+pub struct OutputRequest {
     /// Which rows of output are requested.
     pub rows: Rows,
     /// Whether accelerations are requested at these rows.
@@ -59,7 +59,7 @@ pub enum Verdicts {
     None,
 }
 
-impl Default for Wanted {
+impl Default for OutputRequest {
     /// Everything.
     fn default() -> Self {
         Self {
@@ -101,7 +101,7 @@ pub enum Reactions {
 /// The plan of a run.
 ///
 /// ```
-/// use pfaff_dynamics::{MotionOptions, Plan, RowChoice, Wanted, prepare};
+/// use pfaff_dynamics::{MotionOptions, Plan, RowChoice, OutputRequest, prepare};
 /// use joints::Revolute;
 /// use model::{Body, BodyRef, Description, Joint, Mechanism, StartOptions};
 /// // Two pendulums on one ground are independent of each other.
@@ -117,7 +117,7 @@ pub enum Reactions {
 /// };
 /// let start = StartOptions { correction: model::start::CorrectionLimit::Any, ..StartOptions::default() };
 /// let prepared = prepare(Mechanism::build(&pendulums).unwrap(), &start, &RowChoice::Automatic)?;
-/// let plan = Plan::new(&prepared, &MotionOptions::to(1.0), &Wanted::default())?;
+/// let plan = Plan::new(&prepared, &MotionOptions::to(1.0), &OutputRequest::default())?;
 /// assert_eq!(plan.components.len(), 2);
 /// assert_eq!(plan.components[1].name, "right");
 /// assert_eq!(plan.components[1].decisions.method.taken, "dop853");
@@ -125,16 +125,16 @@ pub enum Reactions {
 /// ```
 #[non_exhaustive]
 pub struct Plan<'a> {
-    prepared: &'a Prepared,
+    prepared: &'a PreparedMechanism,
     options: MotionOptions,
     /// Whether the mechanism is split into components.
-    pub apart: Decided<bool>,
+    pub apart: Decision<bool>,
     /// Whether code generated for the mechanism is used.
-    pub code: Decided<bool>,
+    pub code: Decision<bool>,
     /// Which rows of output are computed.
-    pub rows: Decided<Rows>,
+    pub rows: Decision<Rows>,
     /// Whether accelerations are computed at these rows.
-    pub accelerations: Decided<bool>,
+    pub accelerations: Decision<bool>,
     /// Groups whose verdicts are computed; none without reactions.
     pub groups: Vec<Group>,
     /// Verdicts that come with reactions.
@@ -153,9 +153,9 @@ impl<'a> Plan<'a> {
     /// - [`MotionError::NoReaction`]: a reaction is requested of a joint that does not exist.
     /// - [`MotionError::Fault`]: the motion cannot be evaluated at its start.
     pub fn new(
-        prepared: &'a Prepared,
+        prepared: &'a PreparedMechanism,
         options: &MotionOptions,
-        wanted: &Wanted,
+        wanted: &OutputRequest,
     ) -> Result<Self, MotionError> {
         options.check()?;
         let groups = wanted_groups(prepared, wanted)?;
@@ -192,7 +192,7 @@ impl<'a> Plan<'a> {
 
     /// The prepared mechanism.
     #[must_use]
-    pub fn prepared(&self) -> &'a Prepared {
+    pub fn prepared(&self) -> &'a PreparedMechanism {
         self.prepared
     }
 
@@ -225,7 +225,10 @@ impl<'a> Plan<'a> {
 }
 
 /// Whether the reaction of each joint and drive is requested, by itself or as a part of a group.
-fn wanted_groups(prepared: &Prepared, wanted: &Wanted) -> Result<Vec<bool>, MotionError> {
+fn wanted_groups(
+    prepared: &PreparedMechanism,
+    wanted: &OutputRequest,
+) -> Result<Vec<bool>, MotionError> {
     let groups = &prepared.mechanism.layout().groups;
     let names = match &wanted.reactions {
         Reactions::All => return Ok(vec![true; groups.len()]),
@@ -244,8 +247,11 @@ fn wanted_groups(prepared: &Prepared, wanted: &Wanted) -> Result<Vec<bool>, Moti
 }
 
 /// Decides whether a run of the whole mechanism uses generated code.
-fn code(prepared: &Prepared, options: &MotionOptions) -> Result<Decided<bool>, MotionError> {
-    let interpreted = |why: NoCode| Ok(Decided::new(false, "interpreted", why.to_string()));
+fn code(
+    prepared: &PreparedMechanism,
+    options: &MotionOptions,
+) -> Result<Decision<bool>, MotionError> {
+    let interpreted = |why: NoCode| Ok(Decision::new(false, "interpreted", why.to_string()));
     // Without generated code, no method needs to be chosen for the whole mechanism.
     if let Err(why @ NoCode::None) = prepared.code_for(options) {
         return interpreted(why);
@@ -262,28 +268,28 @@ fn code(prepared: &Prepared, options: &MotionOptions) -> Result<Decided<bool>, M
         "its values are those of this mechanism ({}); kernels and elimination below are what it falls back to",
         code.operations
     );
-    Ok(Decided::new(true, format!("`{}`", code.name), reason))
+    Ok(Decision::new(true, format!("`{}`", code.name), reason))
 }
 
-fn rows(options: &MotionOptions, rows: Rows) -> Decided<Rows> {
+fn rows(options: &MotionOptions, rows: Rows) -> Decision<Rows> {
     let every = (options.t_end / options.output_step).ceil().max(0.0) as u64 + 1;
     let wanted = format!("wanted every {} s", options.output_step);
     match rows {
-        Rows::Every => Decided::new(rows, format!("{every}"), wanted),
-        Rows::Interpolated => Decided::new(
+        Rows::Every => Decision::new(rows, format!("{every}"), wanted),
+        Rows::Interpolated => Decision::new(
             rows,
             format!("{every}, as interpolated within steps"),
             format!("{wanted}, and moved onto the constraints elsewhere"),
         ),
-        Rows::Ends => Decided::new(rows, "the ends only", "nothing is written of the others")
+        Rows::Ends => Decision::new(rows, "the ends only", "nothing is written of the others")
             .saving(every.saturating_sub(2), every, Cost::Rows),
     }
 }
 
-fn accelerations(wanted: bool) -> Decided<bool> {
+fn accelerations(wanted: bool) -> Decision<bool> {
     if wanted {
-        Decided::new(true, "at rows of output", "wanted")
+        Decision::new(true, "at rows of output", "wanted")
     } else {
-        Decided::new(false, "within steps only", "not wanted at rows of output")
+        Decision::new(false, "within steps only", "not wanted at rows of output")
     }
 }

@@ -21,7 +21,7 @@ use crate::solve::{self, Misfit};
 /// A mechanism with a consistent start and kept rows.
 #[derive(Clone)]
 #[non_exhaustive]
-pub struct Prepared {
+pub struct PreparedMechanism {
     /// The mechanism, with initial values taken from the start.
     pub mechanism: Mechanism,
     /// Coordinates at t = 0.
@@ -46,11 +46,12 @@ pub struct Prepared {
     pub assembly: Assembly,
     /// Velocities at the start minus the given ones; zero for velocities that are not given.
     pub velocity_correction: Vec<f64>,
-    /// Code generated for this mechanism on these rows, if any: see [`Prepared::with_code`].
+    /// Code generated for this mechanism on these rows, if any: see
+    /// [`PreparedMechanism::with_code`].
     pub(crate) code: Option<Arc<SharedCode>>,
 }
 
-impl Prepared {
+impl PreparedMechanism {
     /// Estimated upper bound (bytes) on the memory of a run, not counting the mechanism itself:
     /// solvers, stages, rows of output. It uses sparsity patterns only.
     #[must_use]
@@ -195,7 +196,7 @@ pub fn prepare(
     mechanism: Mechanism,
     start: &StartOptions,
     rows: &RowChoice,
-) -> Result<Prepared, MotionError> {
+) -> Result<PreparedMechanism, MotionError> {
     prepare_after(mechanism, start, rows, None)
 }
 
@@ -208,8 +209,8 @@ pub fn prepare_after(
     mut mechanism: Mechanism,
     start: &StartOptions,
     rows: &RowChoice,
-    other: Option<&Prepared>,
-) -> Result<Prepared, MotionError> {
+    other: Option<&PreparedMechanism>,
+) -> Result<PreparedMechanism, MotionError> {
     let assembly = assemble(&mut mechanism, start)?;
     let bits = |q: &[f64]| -> Vec<u64> { q.iter().map(|x| x.to_bits()).collect() };
     let known = other.filter(|other| {
@@ -242,7 +243,7 @@ fn on_rows(
     found: Arc<Rows>,
     start: &StartOptions,
     rows: &RowChoice,
-) -> Result<Prepared, MotionError> {
+) -> Result<PreparedMechanism, MotionError> {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, &assembly.q, &mut s);
     mechanism.phi(&mut s);
@@ -271,7 +272,7 @@ fn on_rows(
     if let Some(contradiction) = against {
         return Err(contradiction.into());
     }
-    Ok(Prepared {
+    Ok(PreparedMechanism {
         mechanism,
         q,
         v,

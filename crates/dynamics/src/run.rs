@@ -25,13 +25,13 @@ mod verdicts;
 use crate::code::SceneCode;
 use crate::error::MotionFault;
 use crate::options::MotionOptions;
-use crate::plan::{Plan, Wanted};
-use crate::prepare::Prepared;
+use crate::plan::{OutputRequest, Plan};
+use crate::prepare::PreparedMechanism;
 use caller::ShowRow;
 use component::run_component;
 
 pub use caller::{Stop, Watch};
-pub use reduced::Reduced;
+pub use reduced::ReducedJacobian;
 pub(crate) use reduced::derivatives;
 pub use sample::{ChosenReactions, Sample};
 pub use summary::{ComponentSummary, DroppedRows, Failure, Summary};
@@ -66,7 +66,7 @@ pub use summary::{ComponentSummary, DroppedRows, Failure, Summary};
 /// # Errors
 /// A failure contains the summary of the part that was completed; rows passed before remain valid.
 pub fn simulate(
-    prepared: &Prepared,
+    prepared: &PreparedMechanism,
     options: &MotionOptions,
     row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
 ) -> Result<Summary, Box<Failure>> {
@@ -79,12 +79,12 @@ pub fn simulate(
 /// # Errors
 /// As [`simulate`].
 pub fn simulate_until(
-    prepared: &Prepared,
+    prepared: &PreparedMechanism,
     options: &MotionOptions,
     stop: &Stop<'_>,
     row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
 ) -> Result<Summary, Box<Failure>> {
-    Plan::new(prepared, options, &Wanted::default())
+    Plan::new(prepared, options, &OutputRequest::default())
         .map_err(component::not_begun)?
         .simulate_watched(&|_| ControlFlow::Continue(()), stop, row)
 }

@@ -8,12 +8,12 @@ use nalgebra::{DMatrix, DVector, Isometry3, Vector3};
 
 use crate::couple;
 use crate::limits::{ASSEMBLED, CLOSED, GUESSES, ITERATIONS, MOST_COORDINATES, OPEN};
-use crate::mechanism::{Kind, Model};
-use crate::pose::{Placed, displaced, rotation};
+use crate::mechanism::{JointKind, Model};
+use crate::pose::{JointPlacement, displaced, rotation};
 use loops::{Gap, Tree};
 
 /// A pose of all links.
-pub(crate) struct Assembled {
+pub(crate) struct Assembly {
     poses: Vec<Isometry3<f64>>,
     /// For each joint, changes of its coordinates since the described pose.
     moved: Vec<[f64; 2]>,
@@ -26,7 +26,7 @@ pub(crate) struct Assembled {
 }
 
 /// Why there is none.
-pub(crate) enum NotAssembled {
+pub(crate) enum AssemblyFailure {
     /// The loop with the largest gap at the best pose, and this gap.
     Open(String, f64),
     /// More coordinates than are tried.
@@ -61,11 +61,11 @@ pub(crate) fn assemble(
     model: &Model,
     guess: &[(usize, usize, f64)],
     held: &[(usize, usize)],
-) -> Result<Assembled, NotAssembled> {
+) -> Result<Assembly, AssemblyFailure> {
     let tree = Tree::new(model);
     let n = tree.freedoms.len();
     if n > MOST_COORDINATES {
-        return Err(NotAssembled::TooLarge(n));
+        return Err(AssemblyFailure::TooLarge(n));
     }
     let first = State::new(model, guess);
     let mut best = first.search(model, &tree.holding(held));
@@ -82,9 +82,9 @@ pub(crate) fn assemble(
         let gaps = tree.gaps(model, &poses, &best.q);
         let worst = gaps.iter().max_by(|a, b| a.size().total_cmp(&b.size()));
         let name = worst.map_or_else(String::new, |gap| gap.name.clone());
-        return Err(NotAssembled::Open(name, least));
+        return Err(AssemblyFailure::Open(name, least));
     }
-    Ok(Assembled {
+    Ok(Assembly {
         poses,
         moved: best.q,
         displacements: best.moved,
@@ -96,12 +96,12 @@ pub(crate) fn assemble(
 /// Makes a pose the described one: springs, couplings and what welds keep still refer to that of
 /// the file. Springs of spherical joints that have turned cannot: they are removed, and their
 /// joints named.
-pub(crate) fn describe(model: &mut Model, found: &Assembled) -> Vec<String> {
+pub(crate) fn describe(model: &mut Model, found: &Assembly) -> Vec<String> {
     let mut removed = Vec::new();
     for k in 0..model.joints.len() {
         let [a, b] = model.joints[k].links.map(|link| model.pose(link).rotation);
         let joint = &mut model.joints[k];
-        let keeps = matches!(joint.kind, Kind::Fixed | Kind::Translational);
+        let keeps = matches!(joint.kind, JointKind::Fixed | JointKind::Translational);
         if keeps && !joint.places && joint.frames.is_none() {
             joint.frames = Some([a.inverse() * b, Default::default()]);
         }
@@ -109,7 +109,7 @@ pub(crate) fn describe(model: &mut Model, found: &Assembled) -> Vec<String> {
             joint.zero[c] += found.moved[k][c];
         }
         let turned = found.displacements[k] != Isometry3::identity();
-        if joint.kind == Kind::Spherical && joint.loads[0].stiffness != 0.0 && turned {
+        if joint.kind == JointKind::Spherical && joint.loads[0].stiffness != 0.0 && turned {
             joint.loads[0].stiffness = 0.0;
             removed.push(joint.name.clone());
         }
@@ -151,7 +151,8 @@ impl State {
         let of = &model.joints[joint];
         let n = of.kind.measures().len();
         if n > 0 {
-            self.moved[joint] = Placed::of(model, of).displacement(of.kind, &self.q[joint][..n]);
+            self.moved[joint] =
+                JointPlacement::of(model, of).displacement(of.kind, &self.q[joint][..n]);
         }
     }
 
@@ -210,9 +211,9 @@ impl State {
                     self.q[k][c] += by;
                 }
             }
-            if joint.kind == Kind::Spherical {
+            if joint.kind == JointKind::Spherical {
                 let axis = Vector3::new(random.signed(), random.signed(), random.signed());
-                let place = Placed::of(model, joint);
+                let place = JointPlacement::of(model, joint);
                 let turn = place.turn(rotation(
                     axis.try_normalize(1e-9).unwrap_or_default(),
                     random.signed(),

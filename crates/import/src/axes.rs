@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::findings::Findings;
 use crate::limits::{EXACT, MEETING, NEARLY, SNAPPED};
-use crate::mechanism::{Kind, Model};
+use crate::mechanism::{JointKind, Model};
 use crate::pose::placing;
 
 /// Whether axes are made parallel, or only told.
@@ -21,7 +21,7 @@ pub enum Axes {
 
 /// An axis at the start, in ground axes.
 #[derive(Clone, Copy)]
-struct Axis {
+struct JointAxis {
     joint: usize,
     point: Vector3<f64>,
     direction: Vector3<f64>,
@@ -58,20 +58,20 @@ fn tilted(
     poses: &[Isometry3<f64>],
     loop_: &[usize],
     angle: Option<f64>,
-) -> (Vec<Axis>, Option<Axis>, Vec<Tilt>) {
+) -> (Vec<JointAxis>, Option<JointAxis>, Vec<Tilt>) {
     let known = EXACT.max(angle.unwrap_or(0.0));
-    let of: Vec<Axis> = loop_
+    let of: Vec<JointAxis> = loop_
         .iter()
         .filter_map(|&joint| axis(model, poses, joint))
         .collect();
     // The reference is the axis that most others of the loop agree with.
-    let agree = |a: &Axis| of.iter().filter(|b| tilt(a, b) <= known).count();
+    let agree = |a: &JointAxis| of.iter().filter(|b| tilt(a, b) <= known).count();
     let votes: Vec<usize> = of.iter().map(agree).collect();
     let best = (0..of.len()).max_by_key(|&k| (votes[k], Reverse(of[k].joint)));
     let Some(reference) = best.map(|best| of[best]) else {
         return (of, None, Vec::new());
     };
-    let mut members: Vec<&Axis> = of.iter().collect();
+    let mut members: Vec<&JointAxis> = of.iter().collect();
     members.sort_unstable_by_key(|axis| axis.joint);
     let tilts = of.iter().filter_map(|axis| {
         let off = tilt(&reference, axis);
@@ -211,19 +211,22 @@ pub(crate) fn look(
 }
 
 /// Angle between two lines, sense not counted.
-fn tilt(a: &Axis, b: &Axis) -> f64 {
+fn tilt(a: &JointAxis, b: &JointAxis) -> f64 {
     let sine = a.direction.cross(&b.direction).norm();
     sine.atan2(a.direction.dot(&b.direction).abs())
 }
 
-fn axis(model: &Model, poses: &[Isometry3<f64>], joint: usize) -> Option<Axis> {
+fn axis(model: &Model, poses: &[Isometry3<f64>], joint: usize) -> Option<JointAxis> {
     let of = &model.joints[joint];
     let has_axis = matches!(
         of.kind,
-        Kind::Revolute | Kind::Translational | Kind::Cylindrical | Kind::Screw(_)
+        JointKind::Revolute
+            | JointKind::Translational
+            | JointKind::Cylindrical
+            | JointKind::Screw(_)
     );
     let pose = of.links[1].map_or_else(Isometry3::identity, |link| poses[link]);
-    has_axis.then(|| Axis {
+    has_axis.then(|| JointAxis {
         joint,
         point: (pose * Point3::from(of.points[1])).coords,
         direction: pose.rotation * of.axes[1],
@@ -263,8 +266,8 @@ fn loops(model: &Model) -> Vec<Vec<usize>> {
         out
     };
     let closing = model.joints.iter().enumerate();
-    let closing =
-        closing.filter(|(_, joint)| !joint.places && joint.is_active && joint.kind != Kind::Free);
+    let closing = closing
+        .filter(|(_, joint)| !joint.places && joint.is_active && joint.kind != JointKind::Free);
     closing
         .map(|(k, joint)| {
             let [mut a, mut b] = joint.links.map(chain);

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use nalgebra::Isometry3;
 
 use crate::findings::Findings;
-use crate::mechanism::{Kind, Model};
-use crate::pose::{Placed, displaced};
+use crate::mechanism::{JointKind, Model};
+use crate::pose::{JointPlacement, displaced};
 
 /// Value of a polynomial.
 fn value(coefficients: &[f64], x: f64) -> f64 {
@@ -97,10 +97,12 @@ pub(crate) fn settle(model: &mut Model, findings: &mut Findings) {
         .iter()
         .zip(&shifts)
         .map(|(joint, shift)| match joint.kind {
-            Kind::Spherical | Kind::Free | Kind::Fixed | Kind::Planar => Isometry3::identity(),
+            JointKind::Spherical | JointKind::Free | JointKind::Fixed | JointKind::Planar => {
+                Isometry3::identity()
+            }
             kind => {
                 let n = kind.measures().len();
-                Placed::of(model, joint).displacement(kind, &shift[..n])
+                JointPlacement::of(model, joint).displacement(kind, &shift[..n])
             }
         })
         .collect();

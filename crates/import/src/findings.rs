@@ -95,10 +95,10 @@ pub(crate) struct Findings {
 
 /// What numbers mean, for the count of digits.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Counted {
+pub(crate) enum NumberKind {
     Length,
     Direction,
-    Not,
+    Other,
 }
 
 impl Findings {
@@ -201,7 +201,7 @@ impl Findings {
         &mut self,
         value: &Value,
         [least, most]: [usize; 2],
-        counted: Counted,
+        counted: NumberKind,
     ) -> Option<Vec<f64>> {
         let mut numbers = Vec::new();
         for word in value.text.split_whitespace() {
@@ -219,9 +219,9 @@ impl Findings {
                 break;
             }
             match counted {
-                Counted::Length => self.lengths.see(word),
-                Counted::Direction => self.directions.see(word),
-                Counted::Not => {}
+                NumberKind::Length => self.lengths.see(word),
+                NumberKind::Direction => self.directions.see(word),
+                NumberKind::Other => {}
             }
             numbers.push(number);
         }
@@ -239,12 +239,12 @@ impl Findings {
         None
     }
 
-    pub(crate) fn number(&mut self, value: &Value, counted: Counted) -> Option<f64> {
+    pub(crate) fn number(&mut self, value: &Value, counted: NumberKind) -> Option<f64> {
         self.numbers(value, [1, 1], counted)?.first().copied()
     }
 
     /// A number ≥ 0.
-    pub(crate) fn not_negative(&mut self, value: &Value, counted: Counted) -> Option<f64> {
+    pub(crate) fn not_negative(&mut self, value: &Value, counted: NumberKind) -> Option<f64> {
         let number = self.number(value, counted)?;
         if number < 0.0 {
             let message = format!("{} is {number}, which may not be negative", value.subject);
@@ -257,7 +257,7 @@ impl Findings {
     pub(crate) fn vector(
         &mut self,
         value: &Value,
-        counted: Counted,
+        counted: NumberKind,
     ) -> Option<nalgebra::Vector3<f64>> {
         let numbers = self.numbers(value, [3, 3], counted)?;
         Some(nalgebra::Vector3::from_column_slice(&numbers))
@@ -265,7 +265,7 @@ impl Findings {
 
     /// A vector that is not zero, of length 1.
     pub(crate) fn direction(&mut self, value: &Value) -> Option<nalgebra::Vector3<f64>> {
-        let vector = self.vector(value, Counted::Direction)?;
+        let vector = self.vector(value, NumberKind::Direction)?;
         let length = vector.norm();
         if length > 0.0 && length.is_finite() {
             return Some(unit(vector));

@@ -57,7 +57,7 @@ use mechanism::Model;
 
 /// A scene that was made of a file.
 #[derive(Clone, Debug)]
-pub struct Imported {
+pub struct ImportedScene {
     /// The text of the scene.
     pub scene: String,
     /// `MJCF`, `URDF` or `SDF`.
@@ -72,7 +72,7 @@ pub struct Imported {
     pub rotors: usize,
 }
 
-impl Imported {
+impl ImportedScene {
     /// What the scene does not contain, kind by kind, in words with lines of the file.
     #[must_use]
     pub fn left_out(&self) -> Vec<(&'static str, Vec<String>)> {
@@ -131,7 +131,7 @@ impl Refusal {
 ///
 /// # Errors
 /// Everything that is wrong with the file, with its places.
-pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Box<Refusal>> {
+pub fn import(name: &str, text: &str, options: &Options) -> Result<ImportedScene, Box<Refusal>> {
     let mut findings = Findings::new(name);
     let source = SourceText::new(name, text);
     let loops = options.loops.as_ref();
@@ -204,7 +204,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Box
         .iter()
         .filter(|joint| joint.kind.name().is_some())
         .count();
-    Ok(Imported {
+    Ok(ImportedScene {
         scene,
         format,
         counts: [model.links.len(), joints + model.couplings.len()],

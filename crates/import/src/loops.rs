@@ -9,7 +9,7 @@ use scene::SourceText;
 
 use crate::findings::{Fault, Findings};
 use crate::limits::DEEPEST_LIST;
-use crate::mechanism::{Joint, Kind, Model};
+use crate::mechanism::{Joint, JointKind, Model};
 
 /// A value of the file with its place.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,8 +134,8 @@ fn apply(
             *end = Some(found.ok_or_else(|| (*at, format!("there is no link `{name}`")))?);
         }
         let kind = match kind.to_ascii_lowercase().as_str() {
-            "6d" => Kind::Fixed,
-            "3d" => Kind::Spherical,
+            "6d" => JointKind::Fixed,
+            "3d" => JointKind::Spherical,
             other => return Err((at, format!("the type `{other}` is neither `3d` nor `6d`"))),
         };
         if ends[0] == ends[1] {
@@ -143,7 +143,7 @@ fn apply(
         }
         let name = format!("{} to {}", names[0].0, names[1].0);
         let zero = [Vector3::zeros(); 2];
-        let frames = (kind == Kind::Fixed).then(|| [UnitQuaternion::identity(); 2]);
+        let frames = (kind == JointKind::Fixed).then(|| [UnitQuaternion::identity(); 2]);
         let joint = Joint::new(name, kind, ends, zero, [Vector3::z(); 2]);
         model.joints.push(Joint {
             places: false,
@@ -166,7 +166,7 @@ fn apply(
     for ((name, at), (kind, of)) in names.into_iter().zip(kinds) {
         let joint = joints.get(name).and_then(|k| model.joints.get_mut(*k));
         let joint = joint.ok_or_else(|| (at, format!("there is no joint `{name}`")))?;
-        if !matches!(joint.kind, Kind::Revolute | Kind::Fixed) {
+        if !matches!(joint.kind, JointKind::Revolute | JointKind::Fixed) {
             return Err((at, format!("joint `{name}` is no hinge")));
         }
         let axis = |letter: char| match letter {
@@ -181,7 +181,7 @@ fn apply(
             .chars()
             .collect();
         match letters.as_slice() {
-            [] if kind == "SPHERICAL" => joint.kind = Kind::Spherical,
+            [] if kind == "SPHERICAL" => joint.kind = JointKind::Spherical,
             &[a, b] => {
                 let (Some(first), Some(second)) = (axis(a), axis(b)) else {
                     return Err((of, no_type(kind)));
@@ -193,7 +193,7 @@ fn apply(
                 let turned = model.links[joint.links[1].unwrap_or(0)].pose.rotation;
                 let before = joint.links[0].map(|link| model.links[link].pose.rotation);
                 let relation = before.unwrap_or_default().inverse() * turned;
-                joint.kind = Kind::Universal;
+                joint.kind = JointKind::Universal;
                 joint.axes = [relation * first, first];
                 joint.cross = second;
             }

@@ -21,7 +21,7 @@ pub(crate) struct Link {
 
 /// What a joint lets its second link do.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Kind {
+pub(crate) enum JointKind {
     Revolute,
     Translational,
     Spherical,
@@ -36,7 +36,7 @@ pub(crate) enum Kind {
     Free,
 }
 
-impl Kind {
+impl JointKind {
     /// The type in a scene; `None` if it has no joint there.
     pub(crate) fn name(self) -> Option<&'static str> {
         match self {
@@ -82,7 +82,7 @@ pub(crate) struct Joint {
     pub(crate) name: String,
     /// Names of its coordinates: those of the joints of the file that it stands for.
     pub(crate) names: [String; 2],
-    pub(crate) kind: Kind,
+    pub(crate) kind: JointKind,
     /// First and second link.
     pub(crate) links: [Option<usize>; 2],
     /// Whether it places the second link: it is an edge of the tree of links. Other joints close
@@ -109,7 +109,7 @@ impl Joint {
     /// A joint without loads that places its second link.
     pub(crate) fn new(
         name: impl Into<String>,
-        kind: Kind,
+        kind: JointKind,
         links: [Option<usize>; 2],
         points: [Vector3<f64>; 2],
         axes: [Vector3<f64>; 2],
@@ -155,7 +155,7 @@ pub(crate) struct Frame {
 
 /// A state of all joints by coordinates, as a keyframe tells it.
 #[derive(Clone, Debug)]
-pub(crate) struct State {
+pub(crate) struct Keyframe {
     pub(crate) name: String,
     /// The line of the file.
     pub(crate) line: usize,
@@ -176,7 +176,7 @@ pub(crate) struct Model {
     pub(crate) joints: Vec<Joint>,
     pub(crate) couplings: Vec<Coupling>,
     pub(crate) frames: Vec<Frame>,
-    pub(crate) states: Vec<State>,
+    pub(crate) states: Vec<Keyframe>,
 }
 
 impl Model {

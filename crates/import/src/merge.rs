@@ -3,7 +3,7 @@
 use nalgebra::Isometry3;
 
 use crate::findings::Findings;
-use crate::mechanism::{Frame, Kind, Model};
+use crate::mechanism::{Frame, JointKind, Model};
 use crate::pose::{Motion, placing};
 
 /// Where the axes of a link have gone: the link that has them, and their place there.
@@ -15,7 +15,7 @@ pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut
     let before = placing(model);
     let fixed = |link: usize| {
         let joint = before[link].map(|joint| &model.joints[joint])?;
-        let merges = joint.kind == Kind::Fixed && joint.is_active && joint.frames.is_none();
+        let merges = joint.kind == JointKind::Fixed && joint.is_active && joint.frames.is_none();
         merges.then_some(joint.links[0])
     };
     let hosts: Vec<Host> = (0..model.links.len())

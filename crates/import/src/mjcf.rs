@@ -16,7 +16,7 @@ use std::collections::{HashMap, HashSet};
 use nalgebra::Vector3;
 
 use crate::files::Files;
-use crate::findings::{Counted, Fault, Findings};
+use crate::findings::{Fault, Findings, NumberKind};
 use crate::limits::GRAVITY;
 use crate::mechanism::Model;
 use crate::xml::Element;
@@ -85,12 +85,15 @@ impl<'a> Reader<'a, '_> {
         for (key, value) in section.attributes() {
             match key {
                 "gravity" => {
-                    if let Some(gravity) = self.source.findings.vector(&value, Counted::Not) {
+                    if let Some(gravity) = self.source.findings.vector(&value, NumberKind::Other) {
                         self.model.gravity = gravity;
                     }
                 }
                 "wind" | "density" | "viscosity" | "magnetic" => {
-                    let numbers = self.source.findings.numbers(&value, [1, 3], Counted::Not);
+                    let numbers = self
+                        .source
+                        .findings
+                        .numbers(&value, [1, 3], NumberKind::Other);
                     if numbers.is_some_and(|numbers| numbers.iter().any(|x| *x != 0.0)) {
                         let kind = "forces of a medium or field";
                         self.source

@@ -6,10 +6,10 @@
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
-use crate::mechanism::{Joint, Kind, Model};
+use crate::mechanism::{Joint, JointKind, Model};
 
 /// A joint that places a link, at the described pose in ground axes.
-pub(crate) struct Placed {
+pub(crate) struct JointPlacement {
     pub(crate) point: Vector3<f64>,
     pub(crate) axis: Vector3<f64>,
     pub(crate) cross: Vector3<f64>,
@@ -17,7 +17,7 @@ pub(crate) struct Placed {
     pub(crate) second: Isometry3<f64>,
 }
 
-impl Placed {
+impl JointPlacement {
     pub(crate) fn of(model: &Model, joint: &Joint) -> Self {
         let second = model.pose(joint.links[1]);
         Self {
@@ -36,25 +36,25 @@ impl Placed {
 
     /// The displacement for changes of the coordinates since the described pose; spherical joints
     /// and free links have the coordinates of a state.
-    pub(crate) fn displacement(&self, kind: Kind, q: &[f64]) -> Isometry3<f64> {
+    pub(crate) fn displacement(&self, kind: JointKind, q: &[f64]) -> Isometry3<f64> {
         let about = |axis: Vector3<f64>, angle: f64| self.turn(rotation(axis, angle));
         let along =
             |by: f64| Isometry3::from_parts((self.axis * by).into(), UnitQuaternion::identity());
         match (kind, q) {
-            (Kind::Revolute, &[q]) => about(self.axis, q),
-            (Kind::Translational, &[q]) => along(q),
-            (Kind::Universal, &[first, second]) => {
+            (JointKind::Revolute, &[q]) => about(self.axis, q),
+            (JointKind::Translational, &[q]) => along(q),
+            (JointKind::Universal, &[first, second]) => {
                 about(self.axis, first) * about(self.cross, second)
             }
-            (Kind::Cylindrical, &[shift, turn]) => along(shift) * about(self.axis, turn),
-            (Kind::Screw(pitch), &[q]) => {
+            (JointKind::Cylindrical, &[shift, turn]) => along(shift) * about(self.axis, turn),
+            (JointKind::Screw(pitch), &[q]) => {
                 along(pitch * q / std::f64::consts::TAU) * about(self.axis, q)
             }
-            (Kind::Spherical, &[w, x, y, z]) => {
+            (JointKind::Spherical, &[w, x, y, z]) => {
                 let own = self.second.rotation;
                 self.turn(own * quaternion([w, x, y, z]) * own.inverse())
             }
-            (Kind::Free, &[px, py, pz, w, x, y, z]) => {
+            (JointKind::Free, &[px, py, pz, w, x, y, z]) => {
                 let shift = Translation3::new(px, py, pz);
                 let pose = Isometry3::from_parts(shift, quaternion([w, x, y, z]));
                 pose * self.second.inverse()
@@ -151,11 +151,15 @@ pub(crate) struct Motion {
 
 /// The links at a state of the joints.
 pub(crate) fn at_state(model: &Model, q: &[Vec<f64>], v: Option<&[Vec<f64>]>) -> Vec<Motion> {
-    let places: Vec<Placed> = model.joints.iter().map(|j| Placed::of(model, j)).collect();
+    let places: Vec<JointPlacement> = model
+        .joints
+        .iter()
+        .map(|j| JointPlacement::of(model, j))
+        .collect();
     let change = |k: usize| -> Vec<f64> {
         let joint = &model.joints[k];
         match joint.kind {
-            Kind::Spherical | Kind::Free => q[k].clone(),
+            JointKind::Spherical | JointKind::Free => q[k].clone(),
             _ => q[k]
                 .iter()
                 .zip(&joint.zero)
@@ -209,8 +213,8 @@ pub(crate) fn at_state(model: &Model, q: &[Vec<f64>], v: Option<&[Vec<f64>]>) ->
 
 /// The twist of a joint: angular velocity, and velocity of the point at the origin of the ground.
 fn joint_twist(
-    place: &Placed,
-    kind: Kind,
+    place: &JointPlacement,
+    kind: JointKind,
     q: &[f64],
     v: &[f64],
     before: &Isometry3<f64>,
@@ -219,25 +223,25 @@ fn joint_twist(
     let turning = |spin: Vector3<f64>| (spin, -spin.cross(&point));
     let axis = before.rotation * place.axis;
     match (kind, v) {
-        (Kind::Revolute, &[v]) => turning(axis * v),
-        (Kind::Translational, &[v]) => (Vector3::zeros(), axis * v),
-        (Kind::Universal, &[first, second]) => {
+        (JointKind::Revolute, &[v]) => turning(axis * v),
+        (JointKind::Translational, &[v]) => (Vector3::zeros(), axis * v),
+        (JointKind::Universal, &[first, second]) => {
             let turned = rotation(place.axis, q[0]);
             turning(axis * first + before.rotation * (turned * place.cross) * second)
         }
-        (Kind::Cylindrical, &[shift, turn]) => {
+        (JointKind::Cylindrical, &[shift, turn]) => {
             let (spin, velocity) = turning(axis * turn);
             (spin, velocity + axis * shift)
         }
-        (Kind::Screw(pitch), &[v]) => {
+        (JointKind::Screw(pitch), &[v]) => {
             let (spin, velocity) = turning(axis * v);
             (spin, velocity + axis * (pitch * v / std::f64::consts::TAU))
         }
-        (Kind::Spherical, &[x, y, z]) => {
+        (JointKind::Spherical, &[x, y, z]) => {
             let g = before * place.displacement(kind, q);
             turning(g.rotation * place.second.rotation * Vector3::new(x, y, z))
         }
-        (Kind::Free, &[vx, vy, vz, x, y, z]) => {
+        (JointKind::Free, &[vx, vy, vz, x, y, z]) => {
             let pose = before * place.displacement(kind, q) * place.second;
             let spin = pose.rotation * Vector3::new(x, y, z);
             let velocity = before.rotation * Vector3::new(vx, vy, vz);

@@ -7,9 +7,9 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Vector3};
 
-use crate::findings::{Counted, Fault, Findings};
+use crate::findings::{Fault, Findings, NumberKind};
 use crate::mass::Mass;
-use crate::mechanism::{Coupling, Frame, Kind, Link, Load, Model};
+use crate::mechanism::{Coupling, Frame, JointKind, Link, Load, Model};
 use crate::solids::{FRICTION, assume_gravity, find_tree, joint_between, tensor, with_second_axis};
 use crate::xml::{Element, Value};
 use frames::{Frames, pose_of};
@@ -71,7 +71,7 @@ pub(crate) fn read(root: Element, findings: &mut Findings) -> Model {
         return model;
     };
     let gravity = world.and_then(|world| world.text_of("gravity"));
-    match gravity.map(|value| findings.vector(&value, Counted::Not)) {
+    match gravity.map(|value| findings.vector(&value, NumberKind::Other)) {
         Some(Some(gravity)) => model.gravity = gravity,
         Some(None) => return model,
         None => assume_gravity(&mut model, findings),
@@ -232,11 +232,11 @@ fn inertial(element: Element, link: &str, findings: &mut Findings) -> Option<Mas
         return None;
     }
     let pose = match element.child("pose") {
-        Some(pose) => pose_of(pose, Counted::Not, findings)?,
+        Some(pose) => pose_of(pose, NumberKind::Other, findings)?,
         None => Isometry3::identity(),
     };
     let mass = match element.text_of("mass") {
-        Some(value) => findings.not_negative(&value, Counted::Not)?,
+        Some(value) => findings.not_negative(&value, NumberKind::Other)?,
         None => {
             findings.remarks.push(format!(
                 "Link `{link}` has no mass: 1 kg is taken, as SDF says."
@@ -252,7 +252,7 @@ fn inertial(element: Element, link: &str, findings: &mut Findings) -> Option<Mas
                 .zip(["ixx", "iyy", "izz", "ixy", "ixz", "iyz"])
             {
                 if let Some(value) = inertia.text_of(key) {
-                    *number = findings.number(&value, Counted::Not)?;
+                    *number = findings.number(&value, NumberKind::Other)?;
                 }
             }
         }
@@ -317,7 +317,7 @@ fn read_joint(
     let in_second = match scope.frames.pose_of_joint(name) {
         Some(pose) => model.pose(links[1]).inverse() * pose,
         None => match element.child("pose") {
-            Some(pose) => pose_of(pose, Counted::Length, findings)?,
+            Some(pose) => pose_of(pose, NumberKind::Length, findings)?,
             None => Isometry3::identity(),
         },
     };
@@ -342,20 +342,20 @@ fn read_joint(
         (metres, radians)
     };
     let found = match word {
-        "revolute" | "continuous" => Kind::Revolute,
-        "prismatic" => Kind::Translational,
-        "ball" => Kind::Spherical,
-        "fixed" => Kind::Fixed,
-        "universal" | "revolute2" => Kind::Universal,
+        "revolute" | "continuous" => JointKind::Revolute,
+        "prismatic" => JointKind::Translational,
+        "ball" => JointKind::Spherical,
+        "fixed" => JointKind::Fixed,
+        "universal" | "revolute2" => JointKind::Universal,
         "screw" => match pitch() {
-            (Some(value), _) => Kind::Screw(findings.number(&value, Counted::Length)?),
+            (Some(value), _) => JointKind::Screw(findings.number(&value, NumberKind::Length)?),
             (None, Some(value)) => {
-                let turns = findings.number(&value, Counted::Not)?;
+                let turns = findings.number(&value, NumberKind::Other)?;
                 if turns == 0.0 {
                     findings.at(Fault::Range, &value, "a thread without a pitch");
                     return None;
                 }
-                Kind::Screw(-std::f64::consts::TAU / turns)
+                JointKind::Screw(-std::f64::consts::TAU / turns)
             }
             (None, None) => {
                 findings.missing(element, "a `<screw_thread_pitch>`");
@@ -389,7 +389,7 @@ fn read_joint(
     } else {
         joint.loads[0] = first.load;
     }
-    if found == Kind::Universal {
+    if found == JointKind::Universal {
         let Some(second) = second else {
             findings.missing(element, "an `<axis2>`");
             return None;
@@ -450,7 +450,7 @@ fn read_axis(
             }
             "dynamics" => {
                 let mut number = |key: &str| match child.text_of(key) {
-                    Some(value) => findings.not_negative(&value, Counted::Not),
+                    Some(value) => findings.not_negative(&value, NumberKind::Other),
                     None => Some(0.0),
                 };
                 load.damping = number("damping")?;
@@ -459,7 +459,7 @@ fn read_axis(
                     findings.leave_element(FRICTION, child, joint);
                 }
                 if let Some(value) = child.text_of("spring_reference") {
-                    load.reference = findings.number(&value, Counted::Not)?;
+                    load.reference = findings.number(&value, NumberKind::Other)?;
                 }
             }
             _ => {}
@@ -504,7 +504,9 @@ fn mimic(element: Element, model: &mut Model, findings: &mut Findings) {
             continue;
         }
         let mut number = |key: &str, default: f64| match mimic.text_of(key) {
-            Some(value) => findings.number(&value, Counted::Not).unwrap_or(default),
+            Some(value) => findings
+                .number(&value, NumberKind::Other)
+                .unwrap_or(default),
             None => default,
         };
         let (multiplier, offset) = (number("multiplier", 1.0), number("offset", 0.0));

@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 
 use crate::findings::Findings;
 use crate::limits::{GRAVITY, RIGHT_ANGLE};
-use crate::mechanism::{Joint, Kind, Load, Model};
+use crate::mechanism::{Joint, JointKind, Load, Model};
 use crate::pose::rotation;
 
 /// What friction that is left out changes.
@@ -69,7 +69,7 @@ pub(crate) fn with_second_axis(
     load: Load,
 ) {
     if joint.axes[1].dot(&second).abs() <= RIGHT_ANGLE {
-        joint.kind = Kind::Universal;
+        joint.kind = JointKind::Universal;
         joint.cross = second;
         joint.loads[1] = load;
         model.joints.push(joint);
@@ -84,10 +84,10 @@ pub(crate) fn with_second_axis(
         held_weight: 0.0,
     });
     let mut outer = joint.clone();
-    outer.kind = Kind::Revolute;
+    outer.kind = JointKind::Revolute;
     outer.links[1] = Some(between);
     let mut inner = joint;
-    inner.kind = Kind::Revolute;
+    inner.kind = JointKind::Revolute;
     inner.links[0] = Some(between);
     inner.points[0] = inner.points[1];
     inner.axes = [second; 2];
@@ -101,7 +101,7 @@ pub(crate) fn with_second_axis(
 pub(crate) fn joint_between(
     model: &Model,
     name: &str,
-    kind: Kind,
+    kind: JointKind,
     links: [Option<usize>; 2],
     in_second: Isometry3<f64>,
     axis: Vector3<f64>,

@@ -2,12 +2,12 @@
 //! for.
 
 use crate::angles;
-use crate::assemble::{self, NotAssembled};
+use crate::assemble::{self, AssemblyFailure};
 use crate::axes::{self, Axes};
 use crate::couple;
 use crate::findings::{Fault, Findings};
 use crate::limits::{ASSEMBLED, HELD, OPEN};
-use crate::mechanism::{Joint, Model, State};
+use crate::mechanism::{Joint, Keyframe, Model};
 use crate::options::{Base, Options};
 use crate::pose::{self, Motion};
 use crate::xml::Element;
@@ -21,7 +21,7 @@ pub(crate) fn start(
     root: Element,
     findings: &mut Findings,
 ) -> Option<(Vec<Motion>, bool)> {
-    let told = |state: &State| format!("`{}`", state.name);
+    let told = |state: &Keyframe| format!("`{}`", state.name);
     let Some(name) = &options.keyframe else {
         if !model.states.is_empty() {
             let names: Vec<String> = model.states.iter().map(told).collect();
@@ -93,14 +93,14 @@ fn refuse_turns(model: &Model, keyframe: &str, root: Element, findings: &mut Fin
 }
 
 /// A coordinate and the value that is asked for it.
-struct Asked<'o> {
+struct RequestedValue<'o> {
     name: &'o str,
     value: f64,
     joint: usize,
     coordinate: usize,
 }
 
-impl Asked<'_> {
+impl RequestedValue<'_> {
     fn unit(&self, joint: &Joint) -> &'static str {
         match joint.kind.measures().get(self.coordinate) {
             Some(&"displacement") => "m",
@@ -115,7 +115,7 @@ fn asked<'o>(
     pose: &'o [(String, f64)],
     root: Element,
     findings: &mut Findings,
-) -> Vec<Asked<'o>> {
+) -> Vec<RequestedValue<'o>> {
     let mut out = Vec::new();
     for (name, value) in pose {
         let coordinates = model.joints.iter().enumerate().flat_map(|(joint, of)| {
@@ -136,7 +136,7 @@ fn asked<'o>(
             findings.fault_with_help(fault, root.source, root.span(), message, "", help);
             continue;
         };
-        let is_asked = |of: &Asked| (of.joint, of.coordinate) == (joint, coordinate);
+        let is_asked = |of: &RequestedValue| (of.joint, of.coordinate) == (joint, coordinate);
         if let Some(first) = out.iter().find(|of| is_asked(of)) {
             let message = format!(
                 "`{name}` is asked at {value}, and `{}` at {}: one coordinate has one value",
@@ -145,7 +145,7 @@ fn asked<'o>(
             findings.of(Fault::Twice, root, message);
             continue;
         }
-        let one = Asked {
+        let one = RequestedValue {
             name,
             value: *value,
             joint,
@@ -221,7 +221,7 @@ fn close(
             }
             tell_moved(model, &asked, findings);
         }
-        Err(NotAssembled::Open(name, gap)) => {
+        Err(AssemblyFailure::Open(name, gap)) => {
             let message = format!(
                 "no pose is found at which all loops are closed: at the best one `{name}` is open by \
                  {gap:.1e} of the size or rad"
@@ -235,7 +235,7 @@ fn close(
             let fault = Fault::Assembly;
             findings.fault_with_help(fault, root.source, root.span(), message, "", help);
         }
-        Err(NotAssembled::TooLarge(n)) => {
+        Err(AssemblyFailure::TooLarge(n)) => {
             findings.remarks.push(format!(
                 "Loops are open by {open:.1e} of the size or rad, and {n} coordinates are more than are tried."
             ));
@@ -244,7 +244,7 @@ fn close(
 }
 
 /// Names the coordinates that do not have the values that were asked for.
-fn tell_moved(model: &Model, asked: &[Asked], findings: &mut Findings) {
+fn tell_moved(model: &Model, asked: &[RequestedValue], findings: &mut Findings) {
     let mut moved = Vec::new();
     for one in asked {
         let joint = &model.joints[one.joint];

@@ -6,10 +6,10 @@ use std::collections::HashMap;
 
 use nalgebra::{Isometry3, Vector3};
 
-use crate::findings::{Counted, Fault, Findings};
+use crate::findings::{Fault, Findings, NumberKind};
 use crate::loops;
 use crate::mass::Mass;
-use crate::mechanism::{Coupling, Joint, Kind, Link, Load, Model};
+use crate::mechanism::{Coupling, Joint, JointKind, Link, Load, Model};
 use crate::options::Base;
 use crate::pose::quaternion;
 use crate::sdf;
@@ -79,7 +79,7 @@ fn attribute<'a>(element: Element<'a>, key: &str, findings: &mut Findings) -> Op
 /// `<origin xyz rpy>` of an element.
 fn origin(
     element: Element,
-    counted: [Counted; 2],
+    counted: [NumberKind; 2],
     findings: &mut Findings,
 ) -> Option<Isometry3<f64>> {
     let Some(origin) = element.child("origin") else {
@@ -143,13 +143,13 @@ fn links(root: Element, model: &mut Model, findings: &mut Findings) -> HashMap<S
 }
 
 fn mass_of(inertial: Element, findings: &mut Findings) -> Option<Mass> {
-    let pose = origin(inertial, [Counted::Not; 2], findings)?;
+    let pose = origin(inertial, [NumberKind::Other; 2], findings)?;
     let Some(mass) = inertial.child("mass") else {
         findings.missing(inertial, "a `<mass>`");
         return None;
     };
     let mass = attribute(mass, "value", findings)?;
-    let mass = findings.not_negative(&mass, Counted::Not)?;
+    let mass = findings.not_negative(&mass, NumberKind::Other)?;
     let Some(inertia) = inertial.child("inertia") else {
         findings.missing(inertial, "an `<inertia>`");
         return None;
@@ -160,7 +160,7 @@ fn mass_of(inertial: Element, findings: &mut Findings) -> Option<Mass> {
         .zip(["ixx", "iyy", "izz", "ixy", "ixz", "iyz"])
     {
         let value = attribute(inertia, key, findings)?;
-        *number = findings.number(&value, Counted::Not)?;
+        *number = findings.number(&value, NumberKind::Other)?;
     }
     Some(Mass::turned(
         mass,
@@ -200,7 +200,11 @@ fn edges<'a>(
             found
         };
         let (parent, child) = (end("parent"), end("child"));
-        let origin = origin(element, [Counted::Length, Counted::Direction], findings);
+        let origin = origin(
+            element,
+            [NumberKind::Length, NumberKind::Direction],
+            findings,
+        );
         if let (Some(parent), Some(child), Some(origin)) = (parent, child, origin) {
             edges.push(Edge {
                 element,
@@ -284,7 +288,7 @@ fn place(
         let zero = [Vector3::zeros(); 2];
         let joint = Joint::new(
             own.clone(),
-            Kind::Fixed,
+            JointKind::Fixed,
             [None, Some(first)],
             zero,
             [Vector3::z(); 2],
@@ -335,11 +339,11 @@ fn joint(edge: &Edge, findings: &mut Findings) -> Option<Joint> {
     let element = *element;
     let word = attribute(element, "type", findings)?;
     let kind = match word.text.trim() {
-        "revolute" | "continuous" => Kind::Revolute,
-        "prismatic" => Kind::Translational,
-        "fixed" => Kind::Fixed,
-        "floating" => Kind::Free,
-        "planar" => Kind::Planar,
+        "revolute" | "continuous" => JointKind::Revolute,
+        "prismatic" => JointKind::Translational,
+        "fixed" => JointKind::Fixed,
+        "floating" => JointKind::Free,
+        "planar" => JointKind::Planar,
         other => {
             let shown: String = other.chars().take(40).collect();
             let message = format!("joint `{name}`: there is no type `{shown}`");
@@ -347,7 +351,10 @@ fn joint(edge: &Edge, findings: &mut Findings) -> Option<Joint> {
             return None;
         }
     };
-    let has_axis = matches!(kind, Kind::Revolute | Kind::Translational | Kind::Planar);
+    let has_axis = matches!(
+        kind,
+        JointKind::Revolute | JointKind::Translational | JointKind::Planar
+    );
     let axis = match element.child("axis").filter(|_| has_axis) {
         Some(axis) => {
             let value = attribute(axis, "xyz", findings)?;
@@ -363,7 +370,7 @@ fn joint(edge: &Edge, findings: &mut Findings) -> Option<Joint> {
             "limit" => leave("limits of joints"),
             "dynamics" => {
                 if let Some(value) = child.attribute("damping") {
-                    load.damping = findings.not_negative(&value, Counted::Not)?;
+                    load.damping = findings.not_negative(&value, NumberKind::Other)?;
                 }
                 let friction = child.attribute("friction");
                 if friction.is_some_and(|value| value.text.trim().parse() != Ok(0.0)) {
@@ -373,7 +380,7 @@ fn joint(edge: &Edge, findings: &mut Findings) -> Option<Joint> {
             _ => {}
         }
     }
-    if load.damping != 0.0 && !matches!(kind, Kind::Revolute | Kind::Translational) {
+    if load.damping != 0.0 && !matches!(kind, JointKind::Revolute | JointKind::Translational) {
         findings.leave_element("dampers of joints without one axis", element, name);
         load = Load::default();
     }
@@ -394,7 +401,7 @@ fn coupling(
 ) -> Option<Coupling> {
     let name = attribute(mimic, "joint", findings)?;
     let mut number = |key: &str, default: f64| match mimic.attribute(key) {
-        Some(value) => findings.number(&value, Counted::Not),
+        Some(value) => findings.number(&value, NumberKind::Other),
         None => Some(default),
     };
     let coefficients = vec![number("offset", 0.0)?, number("multiplier", 1.0)?];

@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::findings::{Findings, Omission};
 use crate::limits::WIDTH;
-use crate::mechanism::{Joint, Kind, Load, Model};
+use crate::mechanism::{Joint, JointKind, Load, Model};
 use crate::names::Names;
 use crate::pose::{Motion, along_z};
 
@@ -223,9 +223,9 @@ impl<'a> Writer<'a> {
                 let points = format!("{{ {} = {a}, {} = {b} }}", text(&first), text(&second));
                 key(out, "points", &points);
                 match joint.kind {
-                    Kind::Spherical | Kind::Fixed | Kind::Free => {}
-                    Kind::Planar => key(out, "normal", &direction(joint.axes[0])),
-                    Kind::Universal => {
+                    JointKind::Spherical | JointKind::Fixed | JointKind::Free => {}
+                    JointKind::Planar => key(out, "normal", &direction(joint.axes[0])),
+                    JointKind::Universal => {
                         let [a, b] = joint.links.map(|link| self.model.pose(link).rotation);
                         key(out, "axis", &direction(joint.axes[0]));
                         key(out, "cross", &direction(a.inverse() * (b * joint.cross)));
@@ -233,7 +233,7 @@ impl<'a> Writer<'a> {
                     _ => key(out, "axis", &direction(joint.axes[0])),
                 }
             }
-            if let Kind::Screw(pitch) = joint.kind {
+            if let JointKind::Screw(pitch) = joint.kind {
                 key(out, "pitch", &number(pitch));
             }
             if !joint.is_active {
@@ -252,7 +252,7 @@ impl<'a> Writer<'a> {
     ) -> [String; 2] {
         // A marker has the axis of a slide as its z.
         let own = match joint.kind {
-            Kind::Translational => along_z(frames[1].inverse() * joint.axes[1]),
+            JointKind::Translational => along_z(frames[1].inverse() * joint.axes[1]),
             _ => UnitQuaternion::identity(),
         };
         [0, 1].map(|side| {

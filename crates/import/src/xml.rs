@@ -204,9 +204,9 @@ fn too_much(text: &str) -> Option<(usize, String)> {
     let tags = Tags { text, at: 0 };
     for tag in tags {
         depth = match tag.kind {
-            Kind::Opens => depth + 1,
-            Kind::Closes => depth.saturating_sub(1),
-            Kind::IsEmpty => depth,
+            TagKind::Opens => depth + 1,
+            TagKind::Closes => depth.saturating_sub(1),
+            TagKind::IsEmpty => depth,
         };
         spaces += tag.spaces;
         let message = if depth > DEEPEST {
@@ -233,12 +233,12 @@ struct Tags<'t> {
 /// name spaces.
 struct Tag {
     at: usize,
-    kind: Kind,
+    kind: TagKind,
     attributes: usize,
     spaces: usize,
 }
 
-enum Kind {
+enum TagKind {
     Opens,
     Closes,
     IsEmpty,
@@ -264,7 +264,7 @@ impl Iterator for Tags<'_> {
             }
             let mut tag = Tag {
                 at,
-                kind: Kind::Opens,
+                kind: TagKind::Opens,
                 attributes: 0,
                 spaces: 0,
             };
@@ -274,9 +274,9 @@ impl Iterator for Tags<'_> {
                 let before = rest[word..sign].trim();
                 let Some(quote) = rest[sign..].chars().next().filter(|sign| *sign != '>') else {
                     if rest[1..].starts_with('/') {
-                        tag.kind = Kind::Closes;
+                        tag.kind = TagKind::Closes;
                     } else if before.ends_with('/') {
-                        tag.kind = Kind::IsEmpty;
+                        tag.kind = TagKind::IsEmpty;
                     }
                     self.at = at + sign + 1;
                     return Some(tag);

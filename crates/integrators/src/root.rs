@@ -7,7 +7,7 @@
 //! 10.1145/3423597; its constants κ1 = 0.2/(b − a), κ2 = 2, n0 = 1.
 
 /// One end of a bracket: an argument and the value there.
-pub(crate) type End = (f64, f64);
+pub(crate) type BracketEnd = (f64, f64);
 
 /// Shrinks the bracket from `near` to `far`, whose values have opposite signs or whose far value is
 /// zero, to a width of at most `width` (> 0), and returns its far end: its value is zero or has the
@@ -17,8 +17,8 @@ pub(crate) type End = (f64, f64);
 ///
 /// Errors of `f`.
 pub(crate) fn bracketed_root<E>(
-    near: End,
-    far: End,
+    near: BracketEnd,
+    far: BracketEnd,
     width: f64,
     mut f: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<f64, E> {

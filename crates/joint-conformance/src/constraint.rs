@@ -6,7 +6,7 @@ mod identities;
 use std::collections::BTreeSet;
 
 use joints::spec::{ConstraintSpec, Row, Spec};
-use joints::{Argument, ArgumentError, Constraint, Definition, Element, Sloped};
+use joints::{Argument, ArgumentError, Constraint, Definition, Element, SlopedOutputs};
 
 use crate::block::Block;
 use crate::bodies::Bodies;
@@ -209,10 +209,11 @@ impl<S: Bodies> Subject for OfConstraint<S> {
                 k.d_velocity_dx(x, v, f, out);
             }),
             Kernel::DPhiDp => dense(spec.n_data(), |out| {
-                k.slopes(x, f, Sloped::Phi).phi(lambda, out);
+                k.slopes(x, f, SlopedOutputs::Phi).phi(lambda, out);
             }),
             Kernel::DResidualDp => dense(spec.n_data(), |out| {
-                k.slopes(x, f, Sloped::All(v)).residual(lambda, &at.a, out);
+                k.slopes(x, f, SlopedOutputs::All(v))
+                    .residual(lambda, &at.a, out);
             }),
             _ => self.kernel(made, kernel, at),
         }

@@ -18,7 +18,7 @@ mod pfaff {
 
 use joints::{
     Constraint, ConstraintKernels, Definition, Element, Force, ForceElement, Pose, Reaction,
-    Sloped, Twist,
+    SlopedOutputs, Twist,
 };
 use pfaff_joint_macro::{force, joint};
 
@@ -206,12 +206,12 @@ fn what_is_computed_from_other_numbers_changes_with_them() {
     let pose = [Pose::new(3.0, 0.0, 0.5)];
     let mut gradient = [0.0; 2];
     joint
-        .slopes(&pose, &[], Sloped::Phi)
+        .slopes(&pose, &[], SlopedOutputs::Phi)
         .phi(&[10.0], &mut gradient);
     // ∂/∂lambda = −x_0 = −2, ∂/∂x_0 = (2·2 + 1)·(−3) − 3 = −18
     assert_eq!(gradient, [-20.0, -180.0]);
     // C = (2·None + 1)·(2·out + 1) along x: its derivative by x_0 is 2·(−3)·3 + 5·(−2) = −28.
-    let slopes = joint.slopes(&pose, &[], Sloped::All(&[Twist::zero()]));
+    let slopes = joint.slopes(&pose, &[], SlopedOutputs::All(&[Twist::zero()]));
     slopes.residual(&[10.0], &[1.0, 0.0, 0.0], &mut gradient);
     assert_eq!(gradient, [0.0, -280.0]);
 
@@ -279,7 +279,9 @@ fn quotients_of_data_have_their_derivatives() {
 
     let x = [Pose::GROUND, Pose::new(6.0, 8.0, -0.5)];
     let mut found = [0.0; 8];
-    joint.slopes(&x, &[], Sloped::Phi).phi(&[1.0], &mut found);
+    joint
+        .slopes(&x, &[], SlopedOutputs::Phi)
+        .phi(&[1.0], &mut found);
     // Φ = along·(p − start) + square/2: by the start −along, by along p − start, then square/2 by
     // each factor.
     let half = 0.5 * 0.075;

@@ -3,7 +3,7 @@
 //! those of the crate `joints`, bit for bit.
 
 use joints::{
-    Argument, Constraint, ConstraintSpec, Force, ForceSpec, Pose, Sloped, Twist, Visitor,
+    Argument, Constraint, ConstraintSpec, Force, ForceSpec, Pose, SlopedOutputs, Twist, Visitor,
     plane_constraints, plane_forces,
 };
 
@@ -197,7 +197,7 @@ fn constraint_bits<K: Constraint>(seed: u64) -> Vec<u64> {
     call(&|o| k.d_gamma_dv(&x, &v, &f, o));
     call(&|o| k.d_velocity_dx(&x, &v, &f, o));
     call(&|o| k.data(o));
-    let slopes = k.slopes(&x, &f, Sloped::All(&v));
+    let slopes = k.slopes(&x, &f, SlopedOutputs::All(&v));
     let accelerations: Vec<f64> = a.iter().flat_map(|a| [a.x, a.y, a.omega]).collect();
     call(&|o| slopes.phi(&lambda, &mut o[..spec.n_data()]));
     call(&|o| slopes.residual(&lambda, &accelerations, &mut o[..spec.n_data()]));

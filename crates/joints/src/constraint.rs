@@ -10,7 +10,7 @@ use crate::arguments::{Argument, ArgumentError};
 use crate::element::{Element, Reaction};
 use crate::program::Programs;
 use crate::ring::{Real, Scalar};
-use crate::slopes::{self, At, OfKind, Sloped, Slopes};
+use crate::slopes::{self, At, OfKind, SlopedOutputs, Slopes};
 use crate::space::{Plane, Space};
 use crate::spec::ConstraintSpec;
 use crate::visitor::Visitor;
@@ -88,7 +88,7 @@ pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S
     }
 
     /// Derivatives of the rows by the numbers of [`crate::Definition::data`].
-    fn slopes(&self, x: &[S::Pose<f64>], f: &[[f64; 3]], of: Sloped<'_, S>) -> Slopes {
+    fn slopes(&self, x: &[S::Pose<f64>], f: &[[f64; 3]], of: SlopedOutputs<'_, S>) -> Slopes {
         let mut of_stored = Vec::new();
         self.d_stored_dp(&mut |place, number, slope| of_stored.push((place, number, slope)));
         Slopes::of(&of_kind(self), &of_stored, (x, f), of)

@@ -10,7 +10,7 @@
 //! derivatives each, and the twists of the slots.
 
 use crate::element::Element;
-use crate::recorded::{Operation, Recorded, record};
+use crate::recorded::{Operation, RecordedNumber, record};
 use crate::ring::Ring;
 use crate::space::Space;
 
@@ -41,11 +41,16 @@ struct Program {
 impl Program {
     /// The program of a tape that starts with as many inputs as are given. Entries of `out` that
     /// are still `unwritten` are not those of the kernel.
-    fn new(given: usize, tape: &[Operation], out: &[Recorded], unwritten: Recorded) -> Self {
+    fn new(
+        given: usize,
+        tape: &[Operation],
+        out: &[RecordedNumber],
+        unwritten: RecordedNumber,
+    ) -> Self {
         let mut steps = Vec::new();
         let mut places: Vec<u32> = Vec::with_capacity(tape.len());
         for operation in tape {
-            let at = |r: &Recorded| places[r.place()];
+            let at = |r: &RecordedNumber| places[r.place()];
             let step = match operation {
                 Operation::Input(k) => {
                     places.push(place_of(*k));
@@ -159,34 +164,35 @@ pub struct Programs {
 }
 
 /// What a program is given of a pose: poses, functions of time, and twists if it depends on them.
-type Given<'a, S, T> = (
+type KernelInputs<'a, S, T> = (
     &'a [<S as Space>::Pose<T>],
     &'a [[T; 3]],
     &'a [<S as Space>::Twist<T>],
 );
 
 /// A kernel that is recorded.
-type Write<'w, S> = &'w dyn Fn(Given<'_, S, Recorded>, &mut [Recorded]);
+type Write<'w, S> = &'w dyn Fn(KernelInputs<'_, S, RecordedNumber>, &mut [RecordedNumber]);
 
 impl Programs {
     /// Records the kernels of a constraint that stores so many numbers.
     #[must_use]
-    pub fn record<S: Space>(element: &impl Element<Recorded, S>, stored: usize) -> Self {
+    pub fn record<S: Space>(element: &impl Element<RecordedNumber, S>, stored: usize) -> Self {
         let spec = element.spec();
         let (slots, rows) = (spec.common.slots.len(), spec.rows.len());
         let functions = spec.n_jets();
         let at_rest = stored + slots * S::N_POSE + 3 * functions;
         let kernel = |given: usize, outputs: usize, write: Write<'_, S>| {
             let (tape, (out, unwritten)) = record(|| {
-                let given: Vec<Recorded> = (0..given).map(Recorded::input).collect();
+                let given: Vec<RecordedNumber> = (0..given).map(RecordedNumber::input).collect();
                 let poses = given[stored..].chunks_exact(S::N_POSE).take(slots);
                 let x: Vec<_> = poses.map(S::pose).collect();
                 let jets = given[stored + slots * S::N_POSE..].chunks_exact(3);
                 let jets = jets.take(functions);
-                let f: Vec<[Recorded; 3]> = jets.map(|jet| [jet[0], jet[1], jet[2]]).collect();
+                let f: Vec<[RecordedNumber; 3]> =
+                    jets.map(|jet| [jet[0], jet[1], jet[2]]).collect();
                 let twists = given.get(at_rest..).unwrap_or_default();
                 let v: Vec<_> = twists.chunks_exact(S::N_DOF).map(S::twist).collect();
-                let unwritten = Recorded::from(f64::NAN);
+                let unwritten = RecordedNumber::from(f64::NAN);
                 let mut out = vec![unwritten; outputs];
                 write((&x, &f, &v), &mut out);
                 (out, unwritten)
@@ -258,7 +264,7 @@ impl<T: Ring> Rows<'_, T> {
         self.run::<S>(&self.programs.component, (x, f, &[]), out);
     }
 
-    fn run<S: Space>(self, program: &Program, (x, f, v): Given<'_, S, T>, out: &mut [T]) {
+    fn run<S: Space>(self, program: &Program, (x, f, v): KernelInputs<'_, S, T>, out: &mut [T]) {
         if program.written.is_empty() {
             return;
         }
@@ -280,11 +286,11 @@ mod tests {
     /// y = x₀·x₁ − x₁ + 2, with a step that no output needs.
     fn program() -> Program {
         let (tape, (out, unwritten)) = record(|| {
-            let [a, b] = [0, 1].map(Recorded::input);
-            let unwritten = Recorded::from(f64::NAN);
+            let [a, b] = [0, 1].map(RecordedNumber::input);
+            let unwritten = RecordedNumber::from(f64::NAN);
             let mut out = [unwritten; 3];
             let _idle = a * a;
-            out[2] = a * b - b + Recorded::from(2.0);
+            out[2] = a * b - b + RecordedNumber::from(2.0);
             (out, unwritten)
         });
         Program::new(2, &tape, &out, unwritten)

@@ -11,7 +11,7 @@ use crate::ring::{Real, Scalar};
 
 /// Index of an operation on the tape of the present recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Recorded(usize);
+pub struct RecordedNumber(usize);
 
 /// One operation of a tape; operands come before their uses.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,39 +21,39 @@ pub enum Operation {
     /// The input with this number.
     Input(usize),
     /// `a + b`
-    Add(Recorded, Recorded),
+    Add(RecordedNumber, RecordedNumber),
     /// `a − b`
-    Sub(Recorded, Recorded),
+    Sub(RecordedNumber, RecordedNumber),
     /// `a · b`
-    Mul(Recorded, Recorded),
+    Mul(RecordedNumber, RecordedNumber),
     /// `a / b`
-    Div(Recorded, Recorded),
+    Div(RecordedNumber, RecordedNumber),
     /// `−a`
-    Neg(Recorded),
+    Neg(RecordedNumber),
     /// `√a`
-    Sqrt(Recorded),
+    Sqrt(RecordedNumber),
     /// `1/a`, or 0 if a is 0.
-    RecipOrZero(Recorded),
+    RecipOrZero(RecordedNumber),
     /// [`rotation::angle_over_sine`] of an order.
-    AngleOverSine(Recorded, u8),
+    AngleOverSine(RecordedNumber, u8),
 }
 
 thread_local! {
     static TAPE: RefCell<Vec<Operation>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Runs `f` and returns the operations of all [`Recorded`] numbers in it, in their order. Numbers
+/// Runs `f` and returns the operations of all [`RecordedNumber`]s in it, in their order. Numbers
 /// of one recording are invalid in another.
 ///
 /// ```
-/// use pfaff_joints::recorded::{Operation, Recorded, record};
+/// use pfaff_joints::recorded::{Operation, RecordedNumber, record};
 /// let (tape, y) = record(|| {
-///     let x = Recorded::input(0);
-///     x * x - Recorded::from(2.0)
+///     let x = RecordedNumber::input(0);
+///     x * x - RecordedNumber::from(2.0)
 /// });
 /// assert_eq!(tape.len(), 4);
 /// assert_eq!(tape[y.place()], Operation::Sub(tape_place(1), tape_place(2)));
-/// # fn tape_place(k: usize) -> Recorded { record(|| (0..=k).map(Recorded::input).last().unwrap()).1 }
+/// # fn tape_place(k: usize) -> RecordedNumber { record(|| (0..=k).map(RecordedNumber::input).last().unwrap()).1 }
 /// ```
 pub fn record<R>(f: impl FnOnce() -> R) -> (Vec<Operation>, R) {
     let outer = TAPE.take();
@@ -61,7 +61,7 @@ pub fn record<R>(f: impl FnOnce() -> R) -> (Vec<Operation>, R) {
     (TAPE.replace(outer), result)
 }
 
-impl Recorded {
+impl RecordedNumber {
     /// An input.
     #[must_use]
     pub fn input(k: usize) -> Self {
@@ -82,20 +82,20 @@ impl Recorded {
     }
 }
 
-impl From<f64> for Recorded {
+impl From<f64> for RecordedNumber {
     fn from(x: f64) -> Self {
         Self::push(Operation::Number(x))
     }
 }
 
 /// What a constraint stores is an input: its rows are recorded for all constraints of its kind.
-impl Scalar for Recorded {
+impl Scalar for RecordedNumber {
     fn stored(_: f64, place: usize) -> Self {
         Self::input(place)
     }
 }
 
-impl Add for Recorded {
+impl Add for RecordedNumber {
     type Output = Self;
 
     fn add(self, y: Self) -> Self {
@@ -103,7 +103,7 @@ impl Add for Recorded {
     }
 }
 
-impl Sub for Recorded {
+impl Sub for RecordedNumber {
     type Output = Self;
 
     fn sub(self, y: Self) -> Self {
@@ -111,7 +111,7 @@ impl Sub for Recorded {
     }
 }
 
-impl Mul for Recorded {
+impl Mul for RecordedNumber {
     type Output = Self;
 
     fn mul(self, y: Self) -> Self {
@@ -119,7 +119,7 @@ impl Mul for Recorded {
     }
 }
 
-impl Div for Recorded {
+impl Div for RecordedNumber {
     type Output = Self;
 
     fn div(self, y: Self) -> Self {
@@ -127,7 +127,7 @@ impl Div for Recorded {
     }
 }
 
-impl Neg for Recorded {
+impl Neg for RecordedNumber {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -135,7 +135,7 @@ impl Neg for Recorded {
     }
 }
 
-impl Real for Recorded {
+impl Real for RecordedNumber {
     fn sqrt(self) -> Self {
         Self::push(Operation::Sqrt(self))
     }

@@ -86,15 +86,15 @@ pub(crate) struct At<'a, S: Space> {
     pub(crate) f: &'a [[f64; 3]],
 }
 
-/// The kernels of a constraint with the slopes of their outputs along a few directions.
-struct Seeded {
+/// Inputs of the kernels of a constraint, with their slopes along a few directions.
+struct DualInputs {
     stored: Vec<Dual>,
     x: Vec<Dual>,
     v: Vec<Dual>,
     f: Vec<[Dual; 3]>,
 }
 
-impl Seeded {
+impl DualInputs {
     fn new<S: Space>(of: &OfKind<'_>, at: At<'_, S>) -> Self {
         let (mut x, mut v) = (Vec::new(), Vec::new());
         at.x.iter()
@@ -165,7 +165,7 @@ fn block<S: Space>(
 ) {
     let spec = kind.spec;
     let rows = spec.rows.len();
-    let mut seeded = Seeded::new(kind, at);
+    let mut seeded = DualInputs::new(kind, at);
     let mut factors = Vec::new();
     match kernel {
         Kernel::Force(lambda) => factors.extend_from_slice(lambda),
@@ -257,7 +257,7 @@ pub(crate) fn d_velocity_dx<S: Space>(kind: &OfKind<'_>, at: At<'_, S>, out: &mu
 
 /// Which outputs of the rows have slopes.
 #[derive(Clone, Copy, Debug)]
-pub enum Sloped<'a, S: Space> {
+pub enum SlopedOutputs<'a, S: Space> {
     /// Φ.
     Phi,
     /// C.
@@ -272,14 +272,14 @@ pub enum Sloped<'a, S: Space> {
 ///
 /// ```
 /// use pfaff_joints::generated::Distance;
-/// use pfaff_joints::{Argument, Constraint, ConstraintKernels, Definition, Pose, Sloped};
+/// use pfaff_joints::{Argument, Constraint, ConstraintKernels, Definition, Pose, SlopedOutputs};
 /// # fn main() -> Result<(), pfaff_joints::ArgumentError> {
 /// let ends = [Argument::Pair([0.0, 0.0]), Argument::Pair([0.0, 0.0])];
 /// let mut rod = Distance::from_arguments(&ends)?;
 /// let x = [Pose::GROUND, Pose::new(3.0, 4.0, 0.0)];
 /// rod.initialise(&x);
 /// let mut gradient = [0.0; 5];
-/// rod.slopes(&x, &[], Sloped::Phi).phi(&[10.0], &mut gradient);
+/// rod.slopes(&x, &[], SlopedOutputs::Phi).phi(&[10.0], &mut gradient);
 /// // Φ = (d·d − L²)/(2L): the derivatives are 10·(∓d/L) for the ends and −10 for the length.
 /// let expected = [-6.0, -8.0, 6.0, 8.0, -10.0];
 /// assert!(gradient.iter().zip(expected).all(|(x, e)| (x - e).abs() < 1e-14 * e.abs()));
@@ -304,15 +304,15 @@ impl Slopes {
         kind: &OfKind<'_>,
         of_stored: &[(usize, usize, f64)],
         (x, f): (&[S::Pose<f64>], &[[f64; 3]]),
-        of: Sloped<'_, S>,
+        of: SlopedOutputs<'_, S>,
     ) -> Self {
         let spec = kind.spec;
         let n = spec.n_data();
         let sizes = [spec.holonomic, spec.c.len(), spec.rows.len()];
         let (v, has_phi, has_c) = match of {
-            Sloped::Phi => (None, true, false),
-            Sloped::C => (None, false, true),
-            Sloped::All(v) => (Some(v), true, true),
+            SlopedOutputs::Phi => (None, true, false),
+            SlopedOutputs::C => (None, false, true),
+            SlopedOutputs::All(v) => (Some(v), true, true),
         };
         let mut slopes = Self {
             phi: Vec::new(),
@@ -322,7 +322,7 @@ impl Slopes {
             sizes,
             n_dof: S::N_DOF,
         };
-        let mut seeded = Seeded::new(kind, At::<S> { x, v, f });
+        let mut seeded = DualInputs::new(kind, At::<S> { x, v, f });
         let (x, v) = (seeded.poses::<S>(), seeded.twists::<S>());
         for first in (0..n).step_by(LANES) {
             let lanes = first..n.min(first + LANES);

@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use dynamics::Prepared;
+use dynamics::PreparedMechanism;
 use pfaff::model::Registry;
 use pfaff::report::CurveName;
 use pfaff::work_precision::{
@@ -90,7 +90,7 @@ impl Rival for Comparator {
 
     fn run(
         &self,
-        start: &Prepared,
+        start: &PreparedMechanism,
         tolerance: f64,
         instants: &[f64],
         budget: Duration,

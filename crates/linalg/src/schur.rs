@@ -50,15 +50,15 @@ use tiles::{Lane, SIDE, Tile, triangle};
 #[derive(Clone, Debug)]
 pub struct SchurSaddle {
     structure: SchurStructure,
-    factors: Factors,
+    factors: LdlFactors,
     is_factored: bool,
     assembly: Assembly,
-    work: Work,
+    work: SolutionScratch,
 }
 
 /// Factors `S = L·D·Lᵀ`, and the data from which they were computed.
 #[derive(Clone, Debug)]
-struct Factors {
+struct LdlFactors {
     /// Columns of L of each front, one after the other, with zeros in place of unit diagonals.
     l: Vec<Tile>,
     /// 1/D of each place in the order of elimination, 0 for a skipped row and for no row.
@@ -89,7 +89,7 @@ struct Assembly {
 
 /// Scratch of a solution.
 #[derive(Clone, Debug)]
-struct Work {
+struct SolutionScratch {
     /// A right-hand side and its solution in the order of elimination, sizes of the terms of each
     /// row, and of what all solutions have added to its multiplier; each has a lane for no row.
     x: Vec<Lane>,
@@ -111,7 +111,7 @@ impl SchurSaddle {
         let zeros = [0.0; SIDE];
         let tile = [zeros; SIDE];
         Self {
-            factors: Factors {
+            factors: LdlFactors {
                 l: vec![tile; size.tiles],
                 inverse: vec![zeros; lanes],
                 diagonal: vec![zeros; lanes + 1],
@@ -128,7 +128,7 @@ impl SchurSaddle {
                 front: vec![tile; triangle(size.front)],
                 waiting: Vec::with_capacity(size.waiting),
             },
-            work: Work {
+            work: SolutionScratch {
                 x: vec![zeros; lanes + 1],
                 size: vec![zeros; lanes + 1],
                 added: vec![zeros; lanes + 1],

@@ -7,7 +7,7 @@ use std::error::Error;
 use std::fmt;
 use std::sync::Arc;
 
-use crate::law::Undefined;
+use crate::law::UndefinedValue;
 
 /// Why a called function has no value; its message ends the run.
 pub type CallError = Box<dyn Error + Send + Sync>;
@@ -53,11 +53,11 @@ pub struct Wrench {
 }
 
 /// A function that is called. It is equal to its copies only.
-pub(crate) struct Called<I, O>(Arc<Function<I, O>>);
+pub(crate) struct CalledFunction<I, O>(Arc<Callback<I, O>>);
 
-type Function<I, O> = dyn Fn(&I) -> Result<O, CallError> + Send + Sync;
+type Callback<I, O> = dyn Fn(&I) -> Result<O, CallError> + Send + Sync;
 
-impl<I, O> Called<I, O> {
+impl<I, O> CalledFunction<I, O> {
     pub(crate) fn new(
         function: impl Fn(&I) -> Result<O, CallError> + Send + Sync + 'static,
     ) -> Self {
@@ -65,33 +65,33 @@ impl<I, O> Called<I, O> {
     }
 }
 
-impl<I, O> Clone for Called<I, O> {
+impl<I, O> Clone for CalledFunction<I, O> {
     fn clone(&self) -> Self {
         Self(Arc::clone(&self.0))
     }
 }
 
-impl<I, O> PartialEq for Called<I, O> {
+impl<I, O> PartialEq for CalledFunction<I, O> {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
 }
 
-impl<I, O> fmt::Debug for Called<I, O> {
+impl<I, O> fmt::Debug for CalledFunction<I, O> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Called(..)")
+        f.write_str("CalledFunction(..)")
     }
 }
 
-fn failed(why: &CallError) -> Undefined {
-    Undefined::Failed(why.to_string())
+fn failed(why: &CallError) -> UndefinedValue {
+    UndefinedValue::Failed(why.to_string())
 }
 
-impl Called<DriveState, f64> {
+impl CalledFunction<DriveState, f64> {
     /// Its value for measure, rate and time.
-    pub(crate) fn value(&self, [measure, rate, time]: [f64; 3]) -> Result<f64, Undefined> {
+    pub(crate) fn value(&self, [measure, rate, time]: [f64; 3]) -> Result<f64, UndefinedValue> {
         if !(measure.is_finite() && rate.is_finite()) {
-            return Err(Undefined::Input);
+            return Err(UndefinedValue::Input);
         }
         let state = DriveState {
             time,
@@ -100,35 +100,35 @@ impl Called<DriveState, f64> {
         };
         match (self.0)(&state).map_err(|why| failed(&why))? {
             force if force.is_finite() => Ok(force),
-            other => Err(Undefined::Returned(other.to_string())),
+            other => Err(UndefinedValue::Returned(other.to_string())),
         }
     }
 }
 
 /// A wrench on one body by a function of its state.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CalledWrench(Called<BodyState, Wrench>);
+pub struct CalledWrench(CalledFunction<BodyState, Wrench>);
 
 impl CalledWrench {
     /// The wrench that a function returns, under the conditions of [`crate::Law::called`].
     pub fn new(
         function: impl Fn(&BodyState) -> Result<Wrench, CallError> + Send + Sync + 'static,
     ) -> Self {
-        Self(Called::new(function))
+        Self(CalledFunction::new(function))
     }
 
     /// Force and torque in ground axes.
-    fn value(&self, state: &BodyState) -> Result<Wrench, Undefined> {
+    fn value(&self, state: &BodyState) -> Result<Wrench, UndefinedValue> {
         let [r, v, omega] = [state.position, state.velocity, state.angular_velocity];
         if !r.iter().chain(&v).chain(&omega).all(|x| x.is_finite()) {
-            return Err(Undefined::Input);
+            return Err(UndefinedValue::Input);
         }
         let found = (self.0.0)(state).map_err(|why| failed(&why))?;
         let Wrench { force, torque } = found;
         if force.iter().chain(&torque).all(|x| x.is_finite()) {
             Ok(found)
         } else {
-            Err(Undefined::Returned(format!(
+            Err(UndefinedValue::Returned(format!(
                 "the force {force:?} and the torque {torque:?}"
             )))
         }

@@ -28,7 +28,7 @@ use facts::facts;
 use polynomial::Polynomial;
 use side::Side;
 
-pub use crate::element::{Measured, Placed};
+pub use crate::element::{AttachedConstraint, AttachedMeasure};
 pub use error::CouplingError;
 
 /// Name of the datum with the initial value of a measure that has a row of its own.
@@ -40,7 +40,7 @@ struct Coupling<S: BodySpace> {
     /// The measure x, and y that follows it.
     sides: [Side<S>; 2],
     law: Polynomial,
-    facts: &'static facts::Facts,
+    facts: &'static facts::CouplingFacts,
     /// Its rows for all that does not move, recorded when first asked for.
     programs: OnceLock<Arc<Programs>>,
 }
@@ -53,9 +53,9 @@ struct Coupling<S: BodySpace> {
 /// - [`CouplingError::Coefficients`]: a coefficient is not finite, or all are zero.
 #[allow(private_bounds)]
 pub(crate) fn couple<S: Kinematics>(
-    measures: [Measured<S>; 2],
+    measures: [AttachedMeasure<S>; 2],
     coefficients: &[f64],
-) -> Result<Placed<S>, CouplingError> {
+) -> Result<AttachedConstraint<S>, CouplingError> {
     let law = Polynomial::new(coefficients).ok_or(CouplingError::Coefficients)?;
     // The first body is that of the joint of y, where the load of the coupling acts.
     let mut bodies: Vec<BodyRef> = measures[1].0.clone();

@@ -9,7 +9,7 @@ use crate::called::{BodyState, CallError, CalledWrench, Wrench};
 use crate::element::{BodySpace, ConstraintKernels, ForceKernels};
 use crate::function::Function;
 use crate::law::{Law, LawError};
-use crate::observed::Observed;
+use crate::observed::Observables;
 use crate::space::SpaceKind;
 use crate::tolerance::Tolerance;
 
@@ -36,7 +36,7 @@ use crate::tolerance::Tolerance;
 /// assert_eq!(faults[0].to_string(), "the name `pivot` is used twice");
 /// ```
 #[derive(Clone)]
-pub struct Described<S: BodySpace> {
+pub struct MechanismDescription<S: BodySpace> {
     /// Its name.
     pub name: String,
     /// Acceleration of free fall (m/s²).
@@ -52,11 +52,11 @@ pub struct Described<S: BodySpace> {
     /// Tolerance of the numbers, unless one is stated for their joint or body.
     pub tolerance: Tolerance,
     /// Markers and measures.
-    pub observed: Observed,
+    pub observed: Observables,
 }
 
-/// A mechanism in the plane before it is assembled; see [`Described`].
-pub type Description = Described<Plane>;
+/// A mechanism in the plane before it is assembled; see [`MechanismDescription`].
+pub type Description = MechanismDescription<Plane>;
 
 /// A mechanism in space before it is assembled.
 ///
@@ -77,9 +77,9 @@ pub type Description = Described<Plane>;
 /// let mechanism = Mechanism::build(&d).unwrap();
 /// assert_eq!((mechanism.layout().rows(), mechanism.layout().n_v), (10, 6));
 /// ```
-pub type SpatialDescription = Described<Space3>;
+pub type SpatialDescription = MechanismDescription<Space3>;
 
-impl<S: BodySpace> Default for Described<S> {
+impl<S: BodySpace> Default for MechanismDescription<S> {
     fn default() -> Self {
         Self {
             name: String::new(),
@@ -89,12 +89,12 @@ impl<S: BodySpace> Default for Described<S> {
             drives: Vec::new(),
             forces: Vec::new(),
             tolerance: Tolerance::default(),
-            observed: Observed::default(),
+            observed: Observables::default(),
         }
     }
 }
 
-impl<S: BodySpace> Described<S> {
+impl<S: BodySpace> MechanismDescription<S> {
     /// A description without bodies.
     #[must_use]
     pub fn new(name: &str) -> Self {

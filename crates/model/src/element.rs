@@ -17,13 +17,13 @@ mod turned;
 
 pub use bodies::Bodies;
 pub(crate) use bodies::{angle_at, axes_at, turned_at};
-pub(crate) use constraint::{Framed, PlacedConstraint};
+pub(crate) use constraint::{FramedConstraint, PlacedConstraint};
 pub(crate) use extended::ExtendedSlots;
 pub(crate) use force::PlacedForce;
 pub use joints::ConstraintKernels;
 use kernels::with;
-pub(crate) use kernels::{AnyConstraint, AnyForce, Evaluated, RowsAt, stored};
-pub use kernels::{BodySpace, ForceKernels, Measured, Placed};
+pub(crate) use kernels::{AnyConstraint, AnyForce, DriveScalar, RowsAt, stored};
+pub use kernels::{AttachedConstraint, AttachedMeasure, BodySpace, ForceKernels};
 pub use recorded::Input;
 pub(crate) use recorded::RecordedSlots;
 pub(crate) use slots::{Kinematics, PoseOf, Rates, Site, Slots, TwistOf};

@@ -9,7 +9,7 @@
 use linalg::{DampedRows, Dd, DdMatrix, StepError};
 
 use crate::element::{Bodies, ExtendedSlots};
-use crate::mechanism::{Given, Mechanism};
+use crate::mechanism::{KernelInput, Mechanism};
 use crate::size::scene_size;
 use crate::start::within::is_beyond;
 use crate::system::System;
@@ -17,7 +17,7 @@ use crate::system::System;
 /// A configuration that satisfies the kept holonomic rows to double-double, with the residuals of
 /// the other rows.
 #[derive(Clone, Debug)]
-pub struct Polished {
+pub struct PolishedConfiguration {
     /// Time (s).
     pub t: f64,
     /// Coordinates, n_q.
@@ -35,7 +35,7 @@ const CORRECTIONS: usize = 6;
 /// A residual below this many roundings of double-double needs no further correction.
 const ROUNDINGS: f64 = 16.0;
 
-impl Polished {
+impl PolishedConfiguration {
     /// Polishes the coordinates q, which satisfy Φ = 0 to `f64`, in the rows `kept` of Φ, which are
     /// independent. Each correction is the smallest possible. The iteration ends when corrections
     /// no longer become smaller, or would move a body farther than a stated tolerance allows.
@@ -141,7 +141,7 @@ fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
 /// Poses of the bodies, and values of the functions of time.
 fn arguments(mechanism: &Mechanism, t: f64, q: &[Dd]) -> ExtendedSlots {
     let given = mechanism.elements.given.iter();
-    let jet = |given: &Given| given.function().map(|f| f.extended_jet(t));
+    let jet = |given: &KernelInput| given.function().map(|f| f.extended_jet(t));
     let mut jets: Vec<[Dd; 3]> = given.map(|g| jet(g).unwrap_or_default()).collect();
     counted_angles(mechanism, t, q, &mut jets);
     ExtendedSlots {
@@ -220,8 +220,8 @@ mod tests {
             tip[1] - 0.3 * b.cos(),
             b,
         ];
-        let polished =
-            Polished::at(&mechanism, 0.0, &q, &[0, 1, 2, 3, 99]).expect("independent rows");
+        let polished = PolishedConfiguration::at(&mechanism, 0.0, &q, &[0, 1, 2, 3, 99])
+            .expect("independent rows");
         for phi in &polished.phi {
             assert!(phi.abs() < Dd::from(1e-30), "{phi:?}");
         }

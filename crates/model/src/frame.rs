@@ -8,7 +8,7 @@
 use crate::body::{Body, BodyRecord, BodyRef, DescribedBody};
 use crate::element::{Bodies, angle_at, axes_at, turned_at};
 use crate::mechanism::Mechanism;
-use crate::observed::{Marker, Measure, MeasureKind, Observed};
+use crate::observed::{Marker, Measure, MeasureKind, Observables};
 use crate::space::{SpaceKind, cross, difference, norm, normalised, quaternion_product};
 use crate::system::System;
 
@@ -132,7 +132,7 @@ pub struct Frames<'m>(&'m Mechanism);
 impl<'m> Frames<'m> {
     /// The markers and measures; a part of a mechanism has its markers with a tolerance only.
     #[must_use]
-    pub fn observed(self) -> &'m Observed {
+    pub fn observed(self) -> &'m Observables {
         &self.0.observed
     }
 

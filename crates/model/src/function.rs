@@ -25,10 +25,10 @@ pub use parts::Parts;
 /// # Ok::<(), pfaff_model::FunctionError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Function(Law);
+pub struct Function(TimeLaw);
 
 #[derive(Clone, Debug, PartialEq)]
-enum Law {
+enum TimeLaw {
     Polynomial(Vec<f64>),
     Harmonic {
         amplitude: f64,
@@ -124,7 +124,7 @@ impl Function {
     /// The time itself, which laws of drives take.
     #[must_use]
     pub fn time() -> Self {
-        Self(Law::Polynomial(vec![0.0, 1.0]))
+        Self(TimeLaw::Polynomial(vec![0.0, 1.0]))
     }
 
     /// `rate·t`
@@ -142,7 +142,7 @@ impl Function {
     /// If a coefficient is not finite, or above [`LARGEST`].
     pub fn polynomial(coefficients: &[f64]) -> Result<Self, FunctionError> {
         usable("coefficients", coefficients)?;
-        Ok(Self(Law::Polynomial(coefficients.to_vec())))
+        Ok(Self(TimeLaw::Polynomial(coefficients.to_vec())))
     }
 
     /// `amplitude·sin(omega·t + phase) + offset`
@@ -159,7 +159,7 @@ impl Function {
         usable("omega", &[omega])?;
         usable("phase", &[phase])?;
         usable("offset", &[offset])?;
-        Ok(Self(Law::Harmonic {
+        Ok(Self(TimeLaw::Harmonic {
             amplitude,
             omega,
             phase,
@@ -190,7 +190,7 @@ impl Function {
             .iter()
             .map(|&[from, to, by]| Step { from, to, by })
             .collect();
-        Ok(Self(Law::Steps { start, steps }))
+        Ok(Self(TimeLaw::Steps { start, steps }))
     }
 
     /// The natural cubic spline through a table, continued as a straight line on both sides.
@@ -199,7 +199,7 @@ impl Function {
     /// If there are fewer than two points, times are not increasing, or a number is not usable.
     pub fn table(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
         points(times, values, |earlier, later| later > earlier)?;
-        Ok(Self(Law::Table(Spline::natural(times, values))))
+        Ok(Self(TimeLaw::Table(Spline::natural(times, values))))
     }
 
     /// The piecewise linear function through a table; the outer lines are continued on both sides.
@@ -229,7 +229,7 @@ impl Function {
                 later: times[k],
             });
         }
-        Ok(Self(Law::Lines(Lines::new(times, values))))
+        Ok(Self(TimeLaw::Lines(Lines::new(times, values))))
     }
 
     /// `[f(t), ḟ(t), f̈(t)]`
@@ -237,10 +237,10 @@ impl Function {
     pub fn jet(&self, t: f64) -> [f64; 3] {
         match &self.0 {
             // Horner's scheme for the value and both derivatives.
-            Law::Polynomial(c) => c.iter().rev().fold([0.0; 3], |[f, d, dd], &c| {
+            TimeLaw::Polynomial(c) => c.iter().rev().fold([0.0; 3], |[f, d, dd], &c| {
                 [f * t + c, d * t + f, dd * t + 2.0 * d]
             }),
-            Law::Harmonic {
+            TimeLaw::Harmonic {
                 amplitude,
                 omega,
                 phase,
@@ -253,12 +253,14 @@ impl Function {
                     -amplitude * omega * omega * sin,
                 ]
             }
-            Law::Steps { start, steps } => steps.iter().fold([*start, 0.0, 0.0], |sum, step| {
-                let jet = step.jet(t);
-                [sum[0] + jet[0], sum[1] + jet[1], sum[2] + jet[2]]
-            }),
-            Law::Table(spline) => spline.jet(t),
-            Law::Lines(lines) => lines.jet(t),
+            TimeLaw::Steps { start, steps } => {
+                steps.iter().fold([*start, 0.0, 0.0], |sum, step| {
+                    let jet = step.jet(t);
+                    [sum[0] + jet[0], sum[1] + jet[1], sum[2] + jet[2]]
+                })
+            }
+            TimeLaw::Table(spline) => spline.jet(t),
+            TimeLaw::Lines(lines) => lines.jet(t),
         }
     }
 
@@ -272,29 +274,29 @@ impl Function {
     #[must_use]
     pub fn is_constant(&self) -> bool {
         match &self.0 {
-            Law::Polynomial(coefficients) => coefficients.iter().skip(1).all(|c| *c == 0.0),
-            Law::Harmonic {
+            TimeLaw::Polynomial(coefficients) => coefficients.iter().skip(1).all(|c| *c == 0.0),
+            TimeLaw::Harmonic {
                 amplitude, omega, ..
             } => *amplitude == 0.0 || *omega == 0.0,
-            Law::Steps { steps, .. } => steps.iter().all(|step| step.by == 0.0),
-            Law::Table(spline) => spline.is_constant(),
-            Law::Lines(lines) => lines.is_constant(),
+            TimeLaw::Steps { steps, .. } => steps.iter().all(|step| step.by == 0.0),
+            TimeLaw::Table(spline) => spline.is_constant(),
+            TimeLaw::Lines(lines) => lines.is_constant(),
         }
     }
 
     /// The constant function with its value at t.
     pub(crate) fn held_at(&self, t: f64) -> Self {
-        Self(Law::Polynomial(vec![self.jet(t)[0]]))
+        Self(TimeLaw::Polynomial(vec![self.jet(t)[0]]))
     }
 
     /// Times at which the function or a derivative jumps, ascending.
     #[must_use]
     pub fn break_times(&self) -> Vec<f64> {
         let mut times = match &self.0 {
-            Law::Polynomial(_) | Law::Harmonic { .. } => Vec::new(),
-            Law::Steps { steps, .. } => steps.iter().flat_map(|s| [s.from, s.to]).collect(),
-            Law::Table(spline) => spline.times().to_vec(),
-            Law::Lines(lines) => lines.times().to_vec(),
+            TimeLaw::Polynomial(_) | TimeLaw::Harmonic { .. } => Vec::new(),
+            TimeLaw::Steps { steps, .. } => steps.iter().flat_map(|s| [s.from, s.to]).collect(),
+            TimeLaw::Table(spline) => spline.times().to_vec(),
+            TimeLaw::Lines(lines) => lines.times().to_vec(),
         };
         times.sort_by(f64::total_cmp);
         times.dedup();

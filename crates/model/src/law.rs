@@ -15,10 +15,10 @@ mod undefined;
 
 pub(crate) use drive::{full, law_drive};
 pub use error::LawError;
-pub use operation::{Function, Join, Operation};
-pub use undefined::Undefined;
+pub use operation::{Join, Operation, UnaryFunction};
+pub use undefined::UndefinedValue;
 
-use crate::called::{CallError, Called, DriveState};
+use crate::called::{CallError, CalledFunction, DriveState};
 use number::{Slope, Smooth};
 use program::Program;
 
@@ -53,7 +53,7 @@ pub struct Law {
 #[derive(Clone, Debug, PartialEq)]
 enum Form {
     Program(Program),
-    Called(Called<DriveState, f64>),
+    Called(CalledFunction<DriveState, f64>),
 }
 
 /// The force of a drive by a law, and what it depends on.
@@ -64,7 +64,7 @@ pub struct DriveForce {
     /// Its rate (m/s or rad/s).
     pub rate: f64,
     /// Force (N) or torque (N·m) along the measure: on the second body, opposite on the first.
-    pub force: Result<f64, Undefined>,
+    pub force: Result<f64, UndefinedValue>,
 }
 
 impl Law {
@@ -97,7 +97,7 @@ impl Law {
         function: impl Fn(&DriveState) -> Result<f64, CallError> + Send + Sync + 'static,
     ) -> Self {
         Self {
-            form: Form::Called(Called::new(function)),
+            form: Form::Called(CalledFunction::new(function)),
             since_start: false,
         }
     }
@@ -121,7 +121,7 @@ impl Law {
     ///
     /// # Errors
     /// If it has no finite value.
-    pub fn value(&self, measure: f64, rate: f64, t: f64) -> Result<f64, Undefined> {
+    pub fn value(&self, measure: f64, rate: f64, t: f64) -> Result<f64, UndefinedValue> {
         self.force([measure, rate, t])
     }
 
@@ -129,24 +129,24 @@ impl Law {
     /// A derivative that has no finite value is 0: it only guides implicit methods.
     ///
     /// # Errors
-    /// If the force has no finite value, and [`Undefined::ValueAlone`]: it calls a function.
-    pub fn slopes(&self, measure: f64, rate: f64, t: f64) -> Result<[f64; 3], Undefined> {
+    /// If the force has no finite value, and [`UndefinedValue::ValueAlone`]: it calls a function.
+    pub fn slopes(&self, measure: f64, rate: f64, t: f64) -> Result<[f64; 3], UndefinedValue> {
         let Slope { value, by } = self.slope([measure, rate, t])?;
         Ok([value, by[0], by[1]])
     }
 
     /// The value for measure, rate and time.
-    fn force<T: Smooth>(&self, inputs: [T; 3]) -> Result<T, Undefined> {
+    fn force<T: Smooth>(&self, inputs: [T; 3]) -> Result<T, UndefinedValue> {
         match &self.form {
             Form::Program(program) => program.evaluate(inputs),
             Form::Called(function) => T::called(function, inputs),
         }
     }
 
-    fn slope<T: Smooth>(&self, inputs: [T; 3]) -> Result<Slope<T>, Undefined> {
+    fn slope<T: Smooth>(&self, inputs: [T; 3]) -> Result<Slope<T>, UndefinedValue> {
         match &self.form {
             Form::Program(program) => program.slope(inputs),
-            Form::Called(_) => Err(Undefined::ValueAlone),
+            Form::Called(_) => Err(UndefinedValue::ValueAlone),
         }
     }
 }

@@ -79,11 +79,11 @@ pub use agreement::{ConstraintLevel, Level, is_at_rest};
 pub use called::{BodyState, CallError, CalledWrench, DriveState, Wrench};
 pub use data::{Data, DataBlock, DataGradients, DataUnit, ForceDerivatives, SHARED, explained};
 pub use description::{
-    AnyDescription, Body, BodyRecord, BodyRef, Described, DescribedBody, Description, Drive, Force,
-    FramePose, Joint, Motion, SetLawError, SpatialBody, SpatialDescription,
+    AnyDescription, Body, BodyRecord, BodyRef, DescribedBody, Description, Drive, Force, FramePose,
+    Joint, MechanismDescription, Motion, SetLawError, SpatialBody, SpatialDescription,
 };
 pub use element::{Bodies, BodySpace, ConstraintKernels, ForceKernels};
-pub use extended::Polished;
+pub use extended::PolishedConfiguration;
 pub use frame::{FrameState, Frames};
 pub use function::{Function, FunctionError};
 pub use law::Law;
@@ -93,7 +93,7 @@ pub use mechanism::{
 };
 /// The version whose poses, vectors and tensors bodies in space take.
 pub use nalgebra;
-pub use observed::{Marker, Measure, MeasureKind, Observed};
+pub use observed::{Marker, Measure, MeasureKind, Observables};
 pub use principal::Principal;
 pub use reaction::{Axes, ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction, Reactions};
 pub use record::RecordedEquations;
@@ -104,5 +104,5 @@ pub use scale::Scales;
 pub use space::{Space, SpaceKind};
 pub use start::{Assembly, Coordinate, StartError, StartOptions, StartPose};
 pub use system::{Layout, RowLabel, Scratch, System};
-pub use tolerance::{Stated, Tolerance};
-pub use uncertainty::Known;
+pub use tolerance::{Tolerance, ToleranceScope};
+pub use uncertainty::ConfigurationAccuracy;

@@ -19,7 +19,7 @@ mod work;
 
 use crate::body::BodyRecord;
 use crate::group::ConstraintId;
-use crate::observed::Observed;
+use crate::observed::Observables;
 use crate::rounding::are_apart;
 use crate::space::{Space, SpaceKind, in_space};
 use crate::system::Layout;
@@ -28,7 +28,7 @@ use crate::tolerance::Tolerance;
 pub use build::Buildable;
 pub use build_error::BuildError;
 pub use derivatives::{Derivatives, Sparse};
-pub(crate) use elements::{Elements, Given};
+pub(crate) use elements::{Elements, KernelInput};
 pub use forces::{AppliedForce, AppliedForces, CalledForce, Push, UndefinedForce};
 pub(crate) use initial::{initialise, unmet_requirement, unmet_rows};
 pub(crate) use kernels::gyroscopic;
@@ -80,7 +80,7 @@ pub struct Mechanism {
     reach: Vec<f64>,
     /// Whether rows of angles keep the angle of each body constant.
     held: Vec<bool>,
-    pub(crate) observed: Observed,
+    pub(crate) observed: Observables,
     layout: Layout,
 }
 
@@ -110,7 +110,7 @@ impl Mechanism {
     pub fn held_at(&self, t: f64) -> Self {
         let mut held = self.clone();
         for given in &mut held.elements.given {
-            if let Given::Function(of) = given {
+            if let KernelInput::Function(of) = given {
                 of.function = of.function.held_at(t);
             }
         }
@@ -129,7 +129,7 @@ impl Mechanism {
         let constraint = &self.elements.constraints[group];
         let given = &self.elements.given[constraint.site.functions.clone()];
         let gives_rate = !constraint.rows.nonholonomic.is_empty();
-        let mut functions = given.iter().filter_map(Given::function);
+        let mut functions = given.iter().filter_map(KernelInput::function);
         functions
             .any(|of| !of.function.is_constant() || (gives_rate && of.function.jet(0.0)[0] != 0.0))
     }

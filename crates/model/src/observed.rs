@@ -145,14 +145,14 @@ impl MeasureKind {
 
 /// The markers and measures of a mechanism.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Observed {
+pub struct Observables {
     /// Its markers.
     pub markers: Vec<Marker>,
     /// Its measures.
     pub measures: Vec<Measure>,
 }
 
-impl Observed {
+impl Observables {
     pub(crate) fn has_tolerances(&self) -> bool {
         self.markers.iter().any(|marker| marker.tolerance.is_some())
     }

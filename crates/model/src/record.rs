@@ -9,7 +9,7 @@
 
 mod shape;
 
-use joints::recorded::{Operation, Recorded, record};
+use joints::recorded::{Operation, RecordedNumber, record};
 
 pub use crate::element::Input;
 use crate::element::{PlacedConstraint, RecordedSlots};
@@ -26,19 +26,19 @@ pub struct RecordedEquations {
     /// Meaning of each input.
     pub inputs: Vec<Input>,
     /// Φ, m values.
-    pub phi: Vec<Recorded>,
+    pub phi: Vec<RecordedNumber>,
     /// C by rows, m + h: column and value; entries at the same place are to be added.
-    pub c: Vec<Vec<(usize, Recorded)>>,
+    pub c: Vec<Vec<(usize, RecordedNumber)>>,
     /// b, m + h values.
-    pub b: Vec<Recorded>,
+    pub b: Vec<RecordedNumber>,
     /// Γ, m + h values.
-    pub gamma: Vec<Recorded>,
+    pub gamma: Vec<RecordedNumber>,
     /// Q, n_v values, including the weight and, in space, −ω × J·ω.
-    pub force: Vec<Recorded>,
+    pub force: Vec<RecordedNumber>,
     /// q̇ = T(q)·v, n_q values.
-    pub rate: Vec<Recorded>,
+    pub rate: Vec<RecordedNumber>,
     /// The generalised forces of gravity that Q begins with, n_v numbers.
-    pub weight: Vec<Recorded>,
+    pub weight: Vec<RecordedNumber>,
     /// The numbers beside the equations.
     pub beside: Beside,
     /// Form and kind of each function of time.
@@ -53,23 +53,23 @@ pub struct Beside {
     /// The place of the first of them in the recording.
     pub first: usize,
     /// The diagonal of M, n_v numbers.
-    pub mass: Vec<Recorded>,
+    pub mass: Vec<RecordedNumber>,
     /// In space: the quaternion (w, x, y, z) from the principal axes of each body to those of its
     /// frame, if they are not the same.
-    pub principal: Vec<Option<[Recorded; 4]>>,
+    pub principal: Vec<Option<[RecordedNumber; 4]>>,
     /// The numbers of each function of time, in the order of [`TimeFunction::numbers`].
-    pub functions: Vec<Vec<Recorded>>,
+    pub functions: Vec<Vec<RecordedNumber>>,
 }
 
 /// Results collected while the kernels run.
 struct Results {
-    phi: Vec<Recorded>,
-    entries: Vec<Recorded>,
-    b: Vec<Recorded>,
-    gamma: Vec<Recorded>,
-    force: Vec<Recorded>,
-    rate: Vec<Recorded>,
-    weight: Vec<Recorded>,
+    phi: Vec<RecordedNumber>,
+    entries: Vec<RecordedNumber>,
+    b: Vec<RecordedNumber>,
+    gamma: Vec<RecordedNumber>,
+    force: Vec<RecordedNumber>,
+    rate: Vec<RecordedNumber>,
+    weight: Vec<RecordedNumber>,
     owners: Vec<(usize, String)>,
 }
 
@@ -110,7 +110,7 @@ impl RecordedEquations {
             let mut list = Vec::new();
             let input = |what: Input| {
                 list.push(what);
-                Recorded::input(list.len() - 1)
+                RecordedNumber::input(list.len() - 1)
             };
             let slots = RecordedSlots::new(space, mechanism.bodies().len(), n_functions, input);
             let results = run_on(mechanism, &slots);
@@ -156,11 +156,11 @@ impl RecordedEquations {
 
 impl Beside {
     fn of(mechanism: &Mechanism) -> Self {
-        let numbers = |x: &[f64]| -> Vec<Recorded> { x.iter().map(|&x| x.into()).collect() };
-        let first = Recorded::from(0.0).place();
+        let numbers = |x: &[f64]| -> Vec<RecordedNumber> { x.iter().map(|&x| x.into()).collect() };
+        let first = RecordedNumber::from(0.0).place();
         let axes = mechanism.bodies().iter().map(|body| {
             let own = body.principal.as_ref()?;
-            Some(own.quaternion().map(Recorded::from))
+            Some(own.quaternion().map(RecordedNumber::from))
         });
         Self {
             first,
@@ -176,8 +176,8 @@ impl Beside {
 
 fn run_on(mechanism: &Mechanism, inputs: &RecordedSlots) -> Results {
     let (layout, elements) = (mechanism.layout(), &mechanism.elements);
-    let numbers = |x: &[f64]| -> Vec<Recorded> { x.iter().map(|&x| x.into()).collect() };
-    let zero = Recorded::from(0.0);
+    let numbers = |x: &[f64]| -> Vec<RecordedNumber> { x.iter().map(|&x| x.into()).collect() };
+    let zero = RecordedNumber::from(0.0);
     let mut r = Results {
         phi: vec![zero; layout.m],
         entries: numbers(&elements.entries),
@@ -198,7 +198,7 @@ fn run_on(mechanism: &Mechanism, inputs: &RecordedSlots) -> Results {
             *force = *force + torque;
         }
     }
-    let here = || Recorded::from(0.0).place();
+    let here = || RecordedNumber::from(0.0).place();
     for (c, group) in elements.constraints.iter().zip(&layout.groups) {
         r.owners.push((here(), group.name.clone()));
         record_constraint(c, inputs, &mut r);

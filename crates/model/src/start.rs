@@ -33,7 +33,7 @@ use metric::{DAMPING, ROUNDINGS, Restricting, SMALL_CORRECTION, dense_rows, larg
 use options::kept_columns;
 
 pub use crate::size::scene_size;
-pub use conflict::{HeldVelocity, Locked, VelocityConflict};
+pub use conflict::{HeldVelocity, LockedBodies, VelocityConflict};
 pub use error::{Misfit, StartError};
 pub use options::{Coordinate, CorrectionLimit, KeepLevel, StartOptions, StartPose};
 pub use velocity::{StartVelocity, consistent_velocity};

@@ -49,7 +49,7 @@ impl Tolerance {
 
 /// The item for which a tolerance is stated.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Stated {
+pub enum ToleranceScope {
     /// For the whole scene.
     Scene,
     /// For points of this body.
@@ -62,7 +62,7 @@ pub enum Stated {
     Drive(String),
 }
 
-impl fmt::Display for Stated {
+impl fmt::Display for ToleranceScope {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Scene => f.write_str("the scene"),

@@ -18,7 +18,7 @@ const CLOSED: f64 = 10.0;
 
 /// Accuracy of a configuration along the motions that the constraints leave free.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Known {
+pub enum ConfigurationAccuracy {
     /// Exactly as stored.
     AsStored,
     /// To this fraction of a radian and of the lengths of the mechanism: the result of an
@@ -26,7 +26,7 @@ pub enum Known {
     To(f64),
 }
 
-impl Known {
+impl ConfigurationAccuracy {
     /// Angle by which bodies may be rotated beyond rounding (rad).
     fn turned(self) -> f64 {
         match self {
@@ -64,7 +64,7 @@ impl Scales<'_> {
     /// residuals of contradicting rows within the tolerance are not an error of the entries. `size`
     /// is that of the mechanism. Needs Φ and C at the pose of the scratch.
     #[must_use]
-    pub fn uncertainty(self, size: f64, known: Known) -> Matrix {
+    pub fn uncertainty(self, size: f64, known: ConfigurationAccuracy) -> Matrix {
         let layout = self.mechanism.layout();
         let of_entries = self.uncertainty_of_entries(size, known);
         let mut u = Matrix::zeros(layout.rows(), layout.n_v);
@@ -78,7 +78,7 @@ impl Scales<'_> {
 
     /// Like [`Self::uncertainty`], for each entry of the pattern of C, in its order.
     #[must_use]
-    pub fn uncertainty_of_entries(self, size: f64, known: Known) -> Vec<f64> {
+    pub fn uncertainty_of_entries(self, size: f64, known: ConfigurationAccuracy) -> Vec<f64> {
         let layout = self.mechanism.layout();
         let pattern = &layout.pattern;
         let magnitudes = self.magnitudes();

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pfaff::import::{Axes, FixedLinks, Folder, Imported, Omission, Options, Refusal};
+use pfaff::import::{Axes, FixedLinks, Folder, ImportedScene, Omission, Options, Refusal};
 use pfaff::memory::of_import;
 use pfaff::report::documents::{ImportDocument, OmissionDocument};
 
@@ -84,7 +84,7 @@ fn refused(refusal: Refusal) -> Failure {
 }
 
 fn document<'a>(
-    imported: &'a Imported,
+    imported: &'a ImportedScene,
     file: &'a str,
     scene_error: Option<&str>,
 ) -> ImportDocument<'a> {
@@ -107,7 +107,7 @@ fn document<'a>(
     }
 }
 
-fn words(imported: &Imported, file: &str, error: Option<&str>) -> String {
+fn words(imported: &ImportedScene, file: &str, error: Option<&str>) -> String {
     let [bodies, joints] = imported.counts;
     let rotors = match imported.rotors {
         0 => String::new(),

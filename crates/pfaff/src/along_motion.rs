@@ -6,13 +6,13 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use dynamics::plan::{Reactions, Rows};
-use dynamics::{MotionError, MotionOptions, Plan, Stop, Wanted};
+use dynamics::{MotionError, MotionOptions, OutputRequest, Plan, Stop};
 use model::start::scene_size;
 use model::{ColumnKind, Layout, Mechanism, System};
 use report::AnalysisDocument;
 use report::documents::AlongDocument;
 use solvability::{
-    Along, AlongError, Extent, PassageKind, State, Stretches, along_motion_of_parts,
+    AlongError, Extent, MotionAnalysis, PassageKind, State, Stretches, along_motion_of_parts,
 };
 
 use crate::error::StudyError;
@@ -48,7 +48,7 @@ const INTERVALS_MAX: usize = 4_000;
 #[non_exhaustive]
 pub struct VerdictsAlongMotion {
     /// The verdicts by stretches of time, and the singular configurations.
-    pub along: Along,
+    pub along: MotionAnalysis,
     /// Last time that was analysed (s).
     pub to: f64,
     /// Number of analysed states.
@@ -217,7 +217,7 @@ impl Study {
         to: f64,
         intervals: usize,
         progress: &mut (impl FnMut(Progress) + Send),
-    ) -> Result<Along, StudyError> {
+    ) -> Result<MotionAnalysis, StudyError> {
         let times: Vec<f64> = (0..=intervals)
             .map(|k| to * (k as f64 / intervals as f64))
             .collect();
@@ -271,7 +271,7 @@ impl Study {
         let base = self.options.clone();
         let many = self.prepared.mechanism.layout().rows() > MANY;
         let between = if many { 1 } else { ROWS };
-        let wanted = Wanted {
+        let wanted = OutputRequest {
             rows: if many {
                 Rows::Interpolated
             } else {
@@ -280,7 +280,7 @@ impl Study {
             accelerations: !many,
             // With them come the verdicts of the run; their numbers are not computed.
             reactions: Reactions::All,
-            ..Wanted::default()
+            ..OutputRequest::default()
         };
         let options = MotionOptions {
             t_end,

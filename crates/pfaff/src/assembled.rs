@@ -1,10 +1,10 @@
 //! A scene with its mechanism, before its rows are analysed: the first stage of a study, and all
 //! that is available for a mechanism whose rank is too uncertain for a motion.
 
-use dynamics::{MotionError, MotionOptions, Prepared, RowChoice};
+use dynamics::{MotionError, MotionOptions, PreparedMechanism, RowChoice};
 use dynamics::{prepare_after, start_velocity, unmovable};
 use model::start::assemble;
-use model::{Assembly, Known, Mechanism, Registry, StartError, Tolerance};
+use model::{Assembly, ConfigurationAccuracy, Mechanism, Registry, StartError, Tolerance};
 use scene::Scene;
 use solvability::{ConstraintLevel, State};
 
@@ -116,7 +116,7 @@ impl AssembledScene {
     pub(crate) fn prepare_after(
         self,
         overrides: &RunOptions,
-        other: Option<&Prepared>,
+        other: Option<&PreparedMechanism>,
     ) -> Result<Study, StudyError> {
         let Self { scene, mechanism } = self;
         let options = options(&scene, overrides);
@@ -216,7 +216,7 @@ impl AssembledScene {
             &self.mechanism,
             0.0,
             state,
-            Known::AsStored,
+            ConfigurationAccuracy::AsStored,
             drop.map_or(AskedRows::Any, AskedRows::Dropped),
             progress,
         )?;

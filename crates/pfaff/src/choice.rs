@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use model::ConstraintId;
-use solvability::{Allowed, Choice, Compliance, NormWeights};
+use solvability::{Choice, Compliance, DeletableRows, NormWeights};
 
 use crate::error::StudyError;
 use crate::refusal::Refusal;
@@ -14,12 +14,12 @@ use crate::start::Start;
 ///
 /// # Errors
 /// What is expected instead.
-pub fn allowed(text: &str, rows: usize) -> Result<Allowed, Refusal> {
+pub fn allowed(text: &str, rows: usize) -> Result<DeletableRows, Refusal> {
     match (text, text.strip_prefix("rows:")) {
-        ("sensible", _) => Ok(Allowed::Sensible),
-        ("whole", _) => Ok(Allowed::Whole),
-        ("rows", _) => Ok(Allowed::Rows((0..rows).collect())),
-        (_, Some(list)) => Ok(Allowed::Rows(row_list("--allow", list, rows)?)),
+        ("sensible", _) => Ok(DeletableRows::Sensible),
+        ("whole", _) => Ok(DeletableRows::Whole),
+        ("rows", _) => Ok(DeletableRows::Rows((0..rows).collect())),
+        (_, Some(list)) => Ok(DeletableRows::Rows(row_list("--allow", list, rows)?)),
         _ => Err(Refusal::input(format!(
             "--allow is `{text}`, need `sensible`, `whole`, `rows`, or a list as `rows:4,6,21`"
         ))),

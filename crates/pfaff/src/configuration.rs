@@ -9,11 +9,11 @@ use std::sync::Arc;
 
 use linalg::Matrix;
 use model::start::scene_size;
-use model::{ConstraintId, Known, Mechanism, System, is_at_rest};
+use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System, is_at_rest};
 use rank::Limits;
 use scene::Scene;
 use solvability::{
-    Allowed, Analysis, Choice, ChoiceError, Continuation, Contradiction, Distribution,
+    Analysis, Choice, ChoiceError, Continuation, Contradiction, DeletableRows, Distribution,
     EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GenericVerdict, GroupVerdict,
     MomentVerdict, NamedChoice, NoFiniteReaction, Numbers, Proposals, Questions, ReactionNumber,
     ReactionValues, ReactionVerdict, Rows, Sensitivities, Sensitivity, Solution, State, UnitCheck,
@@ -28,7 +28,7 @@ use crate::error::StudyError;
 /// ```
 /// use pfaff::rank::Limits;
 /// use pfaff::prelude::*;
-/// use pfaff::solvability::Allowed;
+/// use pfaff::solvability::DeletableRows;
 ///
 /// // A cart on two wheels on one axle: each prevents the same sideways motion.
 /// let mut cart = Description::new("cart");
@@ -41,7 +41,7 @@ use crate::error::StudyError;
 /// assert_eq!(start.verdict("left")?.wrench.verdict.word(), "not_unique");
 /// assert_eq!(start.eliminations()?, 2);
 /// let left = start.reaction("left")?;
-/// let ways = start.make_unique(left, &Allowed::Sensible, Limits::default())?.ways;
+/// let ways = start.make_unique(left, &DeletableRows::Sensible, Limits::default())?.ways;
 /// assert_eq!(ways[0].text, "delete `right`");
 /// let wrong = start.verdict("lift").unwrap_err();
 /// assert_eq!(wrong.to_string(), "there is no joint or drive `lift`; did you mean `left`?");
@@ -88,7 +88,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         mechanism: &'a Mechanism,
         t: f64,
         state: State,
-        known: Known,
+        known: ConfigurationAccuracy,
         rows: AskedRows<'_>,
         progress: impl Fn(usize) + Sync,
     ) -> Result<Self, StudyError> {
@@ -401,7 +401,7 @@ impl<'a> ConfigurationAnalysis<'a> {
     pub fn make_unique(
         &self,
         id: ConstraintId,
-        allowed: &Allowed,
+        allowed: &DeletableRows,
         limits: Limits,
     ) -> Result<Proposals, EliminationError> {
         self.questions.make_unique(id, allowed, limits)

@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 
 use dynamics::plan::Rows;
-use dynamics::{MotionOptions, Plan, Prepared, Sample};
+use dynamics::{MotionOptions, Plan, PreparedMechanism, Sample};
 use model::{Mechanism, System};
 use rank::Limits;
 use report::documents::MakeUniqueDocument;
@@ -14,7 +14,7 @@ use report::{
     WrittenScene, numbers_per_row, run_page,
 };
 use scene::{Scene, Units, WithUnit};
-use solvability::{Allowed, Sensitivities, Stretches, Verdict};
+use solvability::{DeletableRows, Sensitivities, Stretches, Verdict};
 
 use crate::comparison::compare;
 use crate::configuration::ConfigurationAnalysis;
@@ -38,7 +38,7 @@ pub(crate) struct OfRun<'a> {
 /// Rows of a run that are collected for its page.
 pub(crate) struct ReportBuilder<'a> {
     scene: &'a Scene,
-    prepared: &'a Prepared,
+    prepared: &'a PreparedMechanism,
     options: &'a MotionOptions,
     recording: Recording,
     /// Whether reactions are collected.
@@ -82,7 +82,7 @@ impl RowSink for ReportBuilder<'_> {
 impl<'a> ReportBuilder<'a> {
     pub(crate) fn new(
         scene: &'a Scene,
-        prepared: &'a Prepared,
+        prepared: &'a PreparedMechanism,
         asked: &'a MotionOptions,
         plan: &Plan<'_>,
     ) -> Self {
@@ -179,8 +179,8 @@ impl<'a> ReportBuilder<'a> {
             .iter()
             .filter(|r| r.wrench.verdict == Verdict::NotUnique);
         let hints = open.take(HINTS).map(|r| {
-            let found = start.make_unique(r.id, &Allowed::Sensible, limits);
-            MakeUniqueDocument::new(&r.name, &Allowed::Sensible, found)
+            let found = start.make_unique(r.id, &DeletableRows::Sensible, limits);
+            MakeUniqueDocument::new(&r.name, &DeletableRows::Sensible, found)
         });
         let hints = hints.collect();
         (document, hints)

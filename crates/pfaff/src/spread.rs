@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use dynamics::plan::Reactions;
-use dynamics::{MotionError, Plan, Prepared, Sample, Stop, Summary, Wanted};
+use dynamics::{MotionError, OutputRequest, Plan, PreparedMechanism, Sample, Stop, Summary};
 use report::Ending;
 use report::documents::SpreadDocument;
 
@@ -26,7 +26,7 @@ impl RowSink for Path {
 }
 
 impl Path {
-    pub(crate) fn new(prepared: &Prepared) -> Self {
+    pub(crate) fn new(prepared: &PreparedMechanism) -> Self {
         Self {
             may_miss: prepared.may_miss,
             rows: Vec::new(),
@@ -75,15 +75,15 @@ impl Path {
     fn compare(
         &self,
         plan: &Plan<'_>,
-        other: &Prepared,
+        other: &PreparedMechanism,
         spread: &mut SpreadDocument,
         stop: &Stop<'_>,
     ) -> Result<(), MotionError> {
-        let wanted = Wanted {
+        let wanted = OutputRequest {
             rows: plan.rows.value,
             accelerations: false,
             reactions: Reactions::None,
-            ..Wanted::default()
+            ..OutputRequest::default()
         };
         let other_plan = Plan::new(other, plan.options(), &wanted)?;
         let space = other.mechanism.space();

@@ -8,13 +8,13 @@ use dynamics::equilibrium::{Equilibrium, EquilibriumError, EquilibriumOptions, e
 use dynamics::linearise::{Linearisation, LineariseOptions, linearise};
 use dynamics::plan::{Reactions, Rows, Verdicts};
 use dynamics::{
-    Failure, MotionError, MotionFault, MotionOptions, Plan, Prepared, Sample, Stop, Summary,
-    Wanted, simulate_until,
+    Failure, MotionError, MotionFault, MotionOptions, OutputRequest, Plan, PreparedMechanism,
+    Sample, Stop, Summary, simulate_until,
 };
 use model::start::assemble;
 use model::{
-    AnyDescription, ConstraintId, FramePose, Known, Reaction, Registry, StartError, StartPose,
-    System,
+    AnyDescription, ConfigurationAccuracy, ConstraintId, FramePose, Reaction, Registry, StartError,
+    StartPose, System,
 };
 use report::documents::{
     DataDocument, Gap, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument,
@@ -26,8 +26,9 @@ use report::{
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{
-    Choice, Chosen, Contradiction, Freedoms, Group, GroupNumbers, GroupSensitivities, NamedChoice,
-    ReactionVerdict, Sensitivities, Sensitivity, State, Stretches, contradicting_drives_along,
+    Choice, ChosenValues, Contradiction, Freedoms, Group, GroupNumbers, GroupSensitivities,
+    NamedChoice, ReactionVerdict, Sensitivities, Sensitivity, State, Stretches,
+    contradicting_drives_along,
 };
 
 use crate::assembled::{AssembledScene, refused};
@@ -62,7 +63,7 @@ pub struct Study {
     /// The scene, read from a text or made by a program.
     pub scene: Scene,
     /// Start and kept rows.
-    pub prepared: Prepared,
+    pub prepared: PreparedMechanism,
     /// Options of a run; `None` if neither the scene nor the caller states the end of the run.
     pub options: Option<MotionOptions>,
     /// Choices that give the numbers which the model does not determine, in a run; without any, its
@@ -91,11 +92,11 @@ pub struct EndedRun {
 #[non_exhaustive]
 pub struct ChosenNumbers {
     /// Reactions of all joints and drives in the order of their rows.
-    pub reactions: Chosen<Reaction>,
+    pub reactions: ChosenValues<Reaction>,
     /// All numbers of the groups of the scene, group by group.
-    pub groups: Chosen<f64>,
-    /// The same for each choice of [`Study::choices`] and then of [`Wanted::choices`]; NaN where a
-    /// choice selects no solution.
+    pub groups: ChosenValues<f64>,
+    /// The same for each choice of [`Study::choices`] and then of [`OutputRequest::choices`];
+    /// NaN where a choice selects no solution.
     pub choices: Vec<ChosenNumbers>,
 }
 
@@ -192,8 +193,8 @@ impl Study {
         let mechanism = &self.prepared.mechanism;
         // Later configurations are only as accurate as the motion that has reached them.
         let known = match t {
-            0.0 => Known::AsStored,
-            _ => Known::To(self.motion_to(t).rtol),
+            0.0 => ConfigurationAccuracy::AsStored,
+            _ => ConfigurationAccuracy::To(self.motion_to(t).rtol),
         };
         let rows = match (drop, &self.prepared.decided) {
             (Some(drop), _) => AskedRows::Dropped(drop),
@@ -381,7 +382,7 @@ impl Study {
         let Some(options) = &self.options else {
             return Ok(None);
         };
-        let Prepared { mechanism, q, .. } = &self.prepared;
+        let PreparedMechanism { mechanism, q, .. } = &self.prepared;
         Ok(contradicting_drives_along(mechanism, q, options.t_end)?)
     }
 
@@ -410,10 +411,10 @@ impl Study {
             t_end: 0.0,
             ..self.motion_to(1.0)
         };
-        let wanted = Wanted {
+        let wanted = OutputRequest {
             accelerations: false,
             verdicts: Verdicts::None,
-            ..Wanted::default()
+            ..OutputRequest::default()
         };
         let plan = Plan::new(&self.prepared, &options, &wanted);
         let begun = plan.and_then(|plan| {
@@ -490,10 +491,10 @@ impl Study {
         stop: &Stop<'_>,
     ) -> Result<State, StudyError> {
         let mut state = None;
-        let wanted = Wanted {
+        let wanted = OutputRequest {
             accelerations: false,
             reactions: Reactions::None,
-            ..Wanted::default()
+            ..OutputRequest::default()
         };
         let plan = Plan::new(&self.prepared, options, &wanted)?;
         plan.simulate_watched(&|_| ControlFlow::Continue(()), stop, |sample| {
@@ -580,11 +581,16 @@ impl Study {
     pub fn motion(&self, options: &MotionOptions) -> Result<MotionDocument, StudyError> {
         let mechanism = &self.prepared.mechanism;
         let mut rows = Vec::new();
-        let ended = self.show(options, &Wanted::default(), &|| false, |sample, numbers| {
-            let (t, q, v) = (sample.t, sample.q, sample.v);
-            rows.push(MomentDocument::new(mechanism, t, q, v, &numbers.reactions));
-            ControlFlow::Continue(())
-        })?;
+        let ended = self.show(
+            options,
+            &OutputRequest::default(),
+            &|| false,
+            |sample, numbers| {
+                let (t, q, v) = (sample.t, sample.q, sample.v);
+                rows.push(MomentDocument::new(mechanism, t, q, v, &numbers.reactions));
+                ControlFlow::Continue(())
+            },
+        )?;
         match (ended.stopped, &ended.stretches) {
             (Some(error), _) => Err(error.into()),
             (None, stretches) => Ok(MotionDocument::new(
@@ -602,14 +608,15 @@ impl Study {
     ///
     /// ```
     /// use std::ops::ControlFlow;
-    /// use pfaff::dynamics::Wanted;
+    /// use pfaff::dynamics::OutputRequest;
     /// use pfaff::prelude::*;
     ///
     /// let mut thrown = Description { gravity: [0.0, -10.0], ..Description::new("thrown") };
     /// thrown.body(Body { velocity: Some([0.0, 5.0]), ..Body::new("stone", 1.0, 1.0) });
     /// let study = Study::build(thrown)?;
     /// let mut highest = 0.0_f64;
-    /// let ended = study.show(&MotionOptions::to(1.0), &Wanted::default(), &|| false, |sample, _| {
+    /// let (options, wanted) = (MotionOptions::to(1.0), OutputRequest::default());
+    /// let ended = study.show(&options, &wanted, &|| false, |sample, _| {
     ///     highest = highest.max(sample.q[1]);
     ///     if sample.v[1] > 0.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     /// })?;
@@ -625,7 +632,7 @@ impl Study {
     pub fn show(
         &self,
         options: &MotionOptions,
-        wanted: &Wanted,
+        wanted: &OutputRequest,
         stop: &Stop<'_>,
         mut row: impl FnMut(&Sample<'_, '_>, &ChosenNumbers) -> ControlFlow<()>,
     ) -> Result<EndedRun, StudyError> {
@@ -731,7 +738,7 @@ impl Study {
     pub fn plan(&self) -> Result<Plan<'_>, StudyError> {
         let options = self.options.as_ref().ok_or(StudyError::NoEnd)?;
         let groups = self.groups()?.into_iter().map(|(_, group)| group);
-        let wanted = Wanted {
+        let wanted = OutputRequest {
             groups: groups.collect(),
             ..wanted(&self.scene.output)
         };
@@ -744,7 +751,7 @@ impl Study {
 
     /// Number of rows that a run computes for each row of the tables: an animation may need more of
     /// them than the scene requests. A power of two, so that the times of the tables do not change.
-    fn rows_between(&self, wanted: &Wanted) -> usize {
+    fn rows_between(&self, wanted: &OutputRequest) -> usize {
         let Some(options) = self.options.as_ref().filter(|_| self.scene.output.report) else {
             return 1;
         };
@@ -923,10 +930,10 @@ struct Written<'w> {
 
 impl Begun<'_> {
     /// The requested output with the groups of the scene and the choices.
-    fn wanted(&self, wanted: Wanted) -> Wanted {
+    fn wanted(&self, wanted: OutputRequest) -> OutputRequest {
         let groups = self.groups.iter().map(|(_, group)| group.clone());
         let choices = self.choices.iter().cloned();
-        Wanted {
+        OutputRequest {
             groups: groups.collect(),
             choices: choices.chain(wanted.choices).collect(),
             ..wanted
@@ -1001,7 +1008,7 @@ fn files_of(output: &Output, choices: &[String]) -> Vec<String> {
 }
 
 /// The output of a run that is needed for these files.
-fn wanted(output: &Output) -> Wanted {
+fn wanted(output: &Output) -> OutputRequest {
     let reactions = match &output.reactions {
         WantedReactions::All => Reactions::All,
         WantedReactions::Of(names) => Reactions::Of(names.clone()),
@@ -1011,12 +1018,12 @@ fn wanted(output: &Output) -> Wanted {
         (false, Reactions::None) => Rows::Ends,
         _ => Rows::Every,
     };
-    Wanted {
+    OutputRequest {
         rows,
         // No table contains accelerations.
         accelerations: false,
         reactions,
-        ..Wanted::default()
+        ..OutputRequest::default()
     }
 }
 

@@ -12,7 +12,7 @@ use report::{
     Ending, FileError, OutputDirectory, OutputFile, Peak, PeakRecorder, ReactionColumn,
     ReactionTable, TableError, TrajectoryTable, write_chosen, write_determined,
 };
-use solvability::{ChoiceError, Chosen, GroupNumbers, Stretches};
+use solvability::{ChoiceError, ChosenValues, GroupNumbers, Stretches};
 
 use crate::error::StudyError;
 use crate::rows::{RowFault, RowSink};
@@ -271,9 +271,9 @@ pub(crate) fn note_gap(gap: &mut Option<Gap>, t: f64, refused: Option<&ChoiceErr
 pub(crate) fn group_numbers(
     numbers: &mut GroupNumbers<'_>,
     sample: &mut Sample<'_, '_>,
-) -> Result<Chosen<f64>, RowFault> {
+) -> Result<ChosenValues<f64>, RowFault> {
     if numbers.groups().is_empty() {
-        return Ok(Chosen::new(Vec::new(), sample.dropped.to_vec()));
+        return Ok(ChosenValues::new(Vec::new(), sample.dropped.to_vec()));
     }
     let multipliers = sample.multipliers()?;
     numbers_of(numbers, sample, &multipliers)
@@ -283,8 +283,8 @@ pub(crate) fn group_numbers(
 pub(crate) fn numbers_of(
     numbers: &mut GroupNumbers<'_>,
     sample: &Sample<'_, '_>,
-    multipliers: &Chosen<f64>,
-) -> Result<Chosen<f64>, RowFault> {
+    multipliers: &ChosenValues<f64>,
+) -> Result<ChosenValues<f64>, RowFault> {
     let found = numbers.at(sample.t, sample.q, multipliers);
     // Groups were judged before the run began; what is left is a number that is not finite.
     found.map_err(|e| {

@@ -19,7 +19,7 @@ mod ranking;
 mod rival;
 mod standard;
 
-use dynamics::{Method, MotionOptions, Prepared};
+use dynamics::{Method, MotionOptions, PreparedMechanism};
 use model::start::scene_size;
 use report::{CurveName, ReferenceDocument, WorkPrecisionRow, WorkPrecisionScene};
 
@@ -112,7 +112,7 @@ impl Subject {
 
     /// The mechanism at its start.
     #[must_use]
-    pub fn prepared(&self) -> &Prepared {
+    pub fn prepared(&self) -> &PreparedMechanism {
         &self.study.prepared
     }
 

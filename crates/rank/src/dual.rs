@@ -127,7 +127,7 @@ pub(crate) fn rank(vectors: Vec<Vec<f64>>, noise: Noise) -> Result<usize, Unclea
 }
 
 /// Vectors after elimination: the pivot rows first, upper trapezoidal in the order of the pivots.
-pub(crate) struct Eliminated {
+pub(crate) struct EchelonForm {
     pub(crate) vectors: Vec<Vec<f64>>,
     /// Coordinate of each pivot.
     pub(crate) pivots: Vec<usize>,
@@ -136,7 +136,7 @@ pub(crate) struct Eliminated {
 }
 
 /// Gaussian elimination with complete pivoting.
-pub(crate) fn eliminate(mut vectors: Vec<Vec<f64>>, noise: Noise) -> Result<Eliminated, Unclear> {
+pub(crate) fn eliminate(mut vectors: Vec<Vec<f64>>, noise: Noise) -> Result<EchelonForm, Unclear> {
     let mut pivots = Vec::new();
     let mut smallest = f64::INFINITY;
     let dimension = vectors.first().map_or(0, Vec::len);
@@ -171,7 +171,7 @@ pub(crate) fn eliminate(mut vectors: Vec<Vec<f64>>, noise: Noise) -> Result<Elim
         pivots.push(at.1);
         smallest = value;
     }
-    Ok(Eliminated {
+    Ok(EchelonForm {
         vectors,
         pivots,
         smallest,

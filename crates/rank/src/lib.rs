@@ -33,5 +33,5 @@ pub use null_space::{
 pub use sparse::{
     Sketch, SparseEvidence, SparsePattern, SparseRank, SparseRankError, decide_sparse,
 };
-pub use structure::{Part, RowGroup, Settled, Structure, cycles, structure};
+pub use structure::{Part, RowGroup, Structure, StructureVerdict, cycles, structure};
 pub use weakest::{WeakestCombination, weakest_combination};

@@ -39,7 +39,7 @@ pub(crate) use incidence::{partition, within};
 /// Result for a row or group before any rank of the whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum Settled {
+pub enum StructureVerdict {
     /// All its rows were removed with blocks on which they are independent: its multipliers are
     /// unique.
     Peeled,
@@ -54,9 +54,9 @@ pub enum Settled {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Structure {
     /// For each group, why it is settled, or its part; peeled if all its rows are peeled.
-    pub groups: Vec<Settled>,
+    pub groups: Vec<StructureVerdict>,
     /// The same for each row. A row in no group forms a group by itself, connected to the ground.
-    pub rows: Vec<Settled>,
+    pub rows: Vec<StructureVerdict>,
     /// Parts of the whole matrix, ordered by their first rows.
     pub parts: Vec<Part>,
     /// Parts of the open rows, ordered by their first rows. Each can be analysed separately, on its
@@ -75,7 +75,8 @@ pub struct Structure {
 ///
 /// ```
 /// use linalg::Matrix;
-/// use pfaff_rank::{RowGroup, Settled, structure};
+/// use pfaff_rank::StructureVerdict::{Open, Peeled};
+/// use pfaff_rank::{RowGroup, structure};
 /// // Block k = column k. Rows 0 and 1 both fix block 0; row 2 connects block 1 to it.
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [2.0, 0.0], [-1.0, 1.0]]);
 /// let groups = [(0..1, true), (1..2, true), (2..3, false)].map(|(rows, ground)| {
@@ -83,7 +84,7 @@ pub struct Structure {
 ///     RowGroup { rows, ground }
 /// });
 /// let found = structure(&c, pfaff_rank::Accuracy::Rounding, &groups, &[0..1, 1..2])?;
-/// assert_eq!(found.groups, [Settled::Open(0), Settled::Open(0), Settled::Peeled]);
+/// assert_eq!(found.groups, [Open(0), Open(0), Peeled]);
 /// assert_eq!(found.open[0].rows, [0, 1]);
 /// # Ok::<(), pfaff_rank::RankError>(())
 /// ```
@@ -107,7 +108,7 @@ pub fn structure<'a>(
     let (scaling, spread) = uncertainty.into().equilibrate(c)?;
     let mut incidence = Incidence::new(scaling.apply(c), groups, blocks);
     let parts = graph::parts(&incidence);
-    let mut rows = vec![Settled::Peeled; c.nrows()];
+    let mut rows = vec![StructureVerdict::Peeled; c.nrows()];
     loop {
         peel::peel(&mut incidence, spread.largest);
         let bridges = graph::bridges(&incidence);
@@ -116,7 +117,7 @@ pub fn structure<'a>(
         }
         for group in bridges {
             for row in incidence.remaining(group) {
-                rows[row] = Settled::Bridge;
+                rows[row] = StructureVerdict::Bridge;
                 incidence.active[row] = false;
             }
         }
@@ -124,17 +125,17 @@ pub fn structure<'a>(
     let open = graph::parts(&incidence);
     for (k, part) in open.iter().enumerate() {
         for &row in &part.rows {
-            rows[row] = Settled::Open(k);
+            rows[row] = StructureVerdict::Open(k);
         }
     }
     let of_group = |g: usize| {
-        let of = |wanted: fn(&Settled) -> bool| {
+        let of = |wanted: fn(&StructureVerdict) -> bool| {
             let mut own = incidence.groups[g].rows.iter().map(|&row| rows[row]);
             own.find(wanted)
         };
-        of(|s| matches!(s, Settled::Open(_)))
-            .or_else(|| of(|s| *s == Settled::Bridge))
-            .unwrap_or(Settled::Peeled)
+        of(|s| matches!(s, StructureVerdict::Open(_)))
+            .or_else(|| of(|s| *s == StructureVerdict::Bridge))
+            .unwrap_or(StructureVerdict::Peeled)
     };
     Ok(Structure {
         groups: (0..groups.len()).map(of_group).collect(),

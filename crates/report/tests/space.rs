@@ -4,7 +4,7 @@ use joints::space3::{Axes, Revolute};
 use model::{BodyRef, Marker, Mechanism, Reaction, SpaceKind, SpatialBody, SpatialDescription};
 use pfaff_report::figures::{Marking, mechanism};
 use pfaff_report::{ReactionTable, Selection, TrajectoryTable, columns_of_reactions};
-use solvability::Chosen;
+use solvability::ChosenValues;
 
 /// A four-bar in a vertical plane that is turned by `turn` about the vertical axis y.
 fn four_bar(turn: f64) -> SpatialDescription {
@@ -163,9 +163,9 @@ fn tables_have_the_columns_of_space() {
     let columns = columns.expect("all of them");
     let mut table = ReactionTable::new("choice.csv", Vec::new(), &built, columns).expect("writes");
     let reaction = Reaction::new(SpaceKind::Space3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], None);
-    let none = Chosen::new(Vec::new(), Vec::new());
+    let none = ChosenValues::new(Vec::new(), Vec::new());
     table
-        .row(0.0, &Chosen::new(vec![reaction], Vec::new()), &none)
+        .row(0.0, &ChosenValues::new(vec![reaction], Vec::new()), &none)
         .expect("writes");
     let text = String::from_utf8(table.finish().expect("writes").0).expect("UTF-8");
     assert_eq!(

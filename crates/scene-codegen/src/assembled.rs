@@ -1,6 +1,6 @@
 //! A scene from its text to a mechanism on its rows.
 
-use dynamics::{MotionError, MotionOptions, Prepared, RowChoice, prepare};
+use dynamics::{MotionError, MotionOptions, PreparedMechanism, RowChoice, prepare};
 use model::Registry;
 
 use crate::error::CodeError;
@@ -16,7 +16,7 @@ pub(crate) struct SceneText<'a> {
 /// The mechanism of a scene on its rows, and the run that the scene requests.
 pub(crate) fn prepared(
     scene: &SceneText<'_>,
-) -> Result<(Prepared, Option<MotionOptions>), CodeError> {
+) -> Result<(PreparedMechanism, Option<MotionOptions>), CodeError> {
     let &SceneText {
         name,
         text,

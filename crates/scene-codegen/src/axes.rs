@@ -13,7 +13,7 @@ use model::{BodyRef, Mechanism, SpaceKind, System};
 use symbolic::Value;
 
 use crate::equations::{Equations, Source};
-use crate::sampled::Sampled;
+use crate::sampled::SampledProgram;
 use crate::subject::Subject;
 
 /// A matrix, by rows.
@@ -97,7 +97,7 @@ impl Axes {
     }
 
     /// The rows of C, for velocities along these axes.
-    pub(crate) fn rows_of(&self, code: &mut Sampled, c: &[Vec<Value>]) -> Vec<Vec<Value>> {
+    pub(crate) fn rows_of(&self, code: &mut SampledProgram, c: &[Vec<Value>]) -> Vec<Vec<Value>> {
         let mut c = c.to_vec();
         for row in &mut c {
             for (block, matrix) in self.blocks(row.len()) {
@@ -121,7 +121,7 @@ impl Axes {
     }
 
     /// Velocities, from those along these axes to those of the equations.
-    pub(crate) fn velocities_out(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+    pub(crate) fn velocities_out(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         let mut turned = x.to_vec();
         for (block, matrix) in self.blocks(x.len()) {
             turn(code, &mut turned, block, transposed(matrix));
@@ -130,7 +130,7 @@ impl Axes {
     }
 
     /// Forces, from those of the equations to those along these axes.
-    pub(crate) fn forces_in(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+    pub(crate) fn forces_in(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         let mut turned = x.to_vec();
         for (block, matrix) in self.blocks(x.len()) {
             turn(code, &mut turned, block, matrix);
@@ -139,7 +139,7 @@ impl Axes {
     }
 
     /// Row quantities, from components along the axes of the ground to those along these axes.
-    pub(crate) fn rows_in(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+    pub(crate) fn rows_in(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         let mut turned = x.to_vec();
         if let Some(matrix) = self.points {
             self.rows
@@ -150,7 +150,7 @@ impl Axes {
     }
 
     /// Row quantities, from components along these axes to those along the axes of the ground.
-    pub(crate) fn rows_out(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+    pub(crate) fn rows_out(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         let mut turned = x.to_vec();
         if let Some(matrix) = self.points.map(transposed) {
             self.rows
@@ -257,7 +257,7 @@ fn pairs(a: [Value; 3], b: [Value; 3]) -> [(Value, Value); 3] {
 }
 
 /// Replaces three numbers by a matrix times them.
-fn turn(code: &mut Sampled, x: &mut [Value], at: [usize; 3], matrix: Matrix) {
+fn turn(code: &mut SampledProgram, x: &mut [Value], at: [usize; 3], matrix: Matrix) {
     let of = at.map(|k| x[k]);
     for (k, row) in at.into_iter().zip(matrix) {
         x[k] = code.sum(&pairs(row, of));

@@ -20,7 +20,7 @@ use symbolic::Value;
 use crate::axes::Axes;
 use crate::equations::Number;
 use crate::error::CodeError;
-use crate::sampled::Sampled;
+use crate::sampled::SampledProgram;
 
 /// A pivot should be at least this fraction of the largest entry of its row and of its column, at
 /// every state.
@@ -34,7 +34,7 @@ const SMALLEST: f64 = 1e-3;
 const MASSLESS: f64 = 1e-13;
 
 /// Rows in factored form, and the mass matrix of the motions that they leave free.
-pub(crate) struct Factored {
+pub(crate) struct FactoredRows {
     n: usize,
     axes: Axes,
     pivots: Vec<Pivot>,
@@ -60,11 +60,11 @@ struct Pivot {
     free: Vec<Value>,
 }
 
-impl Factored {
+impl FactoredRows {
     /// Factors `rows` (r × n, zeros as the constant 0) for velocities along `axes` and the masses
     /// `mass`. Columns are compared after multiplication by `scale`.
     pub(crate) fn new(
-        code: &mut Sampled,
+        code: &mut SampledProgram,
         mut rows: Vec<Vec<Value>>,
         axes: &Axes,
         (mass, scale): (&[Number], &[f64]),
@@ -131,7 +131,7 @@ impl Factored {
     /// are the accelerations.
     pub(crate) fn solve(
         &self,
-        code: &mut Sampled,
+        code: &mut SampledProgram,
         mass: &[Number],
         rhs: &[Value],
         force: &[Value],
@@ -161,7 +161,7 @@ impl Factored {
     }
 
     /// λ with `rowsᵀ·λ = excess` in the dependent coordinates, one multiplier for each of the rows.
-    pub(crate) fn multipliers(&self, code: &mut Sampled, excess: &[Value]) -> Vec<Value> {
+    pub(crate) fn multipliers(&self, code: &mut SampledProgram, excess: &[Value]) -> Vec<Value> {
         let mut left = self.axes.forces_in(code, excess);
         let p = &mut code.program;
         let zero = p.number(0.0);
@@ -185,7 +185,7 @@ impl Factored {
     }
 
     /// x with `rows·x = rhs` and the free coordinates at zero.
-    fn particular(&self, code: &mut Sampled, rhs: &[Value]) -> Vec<Value> {
+    fn particular(&self, code: &mut SampledProgram, rhs: &[Value]) -> Vec<Value> {
         let p = &mut code.program;
         let mut rhs = rhs.to_vec();
         for pivot in &self.pivots {
@@ -208,7 +208,7 @@ impl Factored {
     }
 
     /// The motion of all coordinates for each free coordinate.
-    fn null_frame(&self, code: &mut Sampled) -> Vec<Vec<Value>> {
+    fn null_frame(&self, code: &mut SampledProgram) -> Vec<Vec<Value>> {
         let p = &mut code.program;
         let (zero, one) = (p.number(0.0), p.number(1.0));
         let motion = |(k, &free): (usize, &usize)| {
@@ -230,7 +230,7 @@ impl Factored {
     }
 
     /// NᵀMN = L·D·Lᵀ.
-    fn reduce_mass(&mut self, code: &mut Sampled, mass: &[Number]) -> Result<(), CodeError> {
+    fn reduce_mass(&mut self, code: &mut SampledProgram, mass: &[Number]) -> Result<(), CodeError> {
         let of = |m: &Number| m.value(&mut code.program);
         let masses: Vec<Value> = mass.iter().map(of).collect();
         let varies = mass.iter().any(|m| matches!(m, Number::Input(_)));
@@ -288,7 +288,7 @@ impl Factored {
         Ok(())
     }
 
-    fn solve_reduced(&self, code: &mut Sampled, mut w: Vec<Value>) -> Vec<Value> {
+    fn solve_reduced(&self, code: &mut SampledProgram, mut w: Vec<Value>) -> Vec<Value> {
         let p = &mut code.program;
         for i in 0..w.len() {
             for j in 0..i {
@@ -310,7 +310,7 @@ impl Factored {
 }
 
 /// Σ aᵢ·bᵢ
-fn dot(code: &mut Sampled, a: &[Value], b: &[Value]) -> Value {
+fn dot(code: &mut SampledProgram, a: &[Value], b: &[Value]) -> Value {
     let products: Vec<_> = a.iter().copied().zip(b.iter().copied()).collect();
     code.sum(&products)
 }
@@ -318,7 +318,7 @@ fn dot(code: &mut Sampled, a: &[Value], b: &[Value]) -> Value {
 /// The entry with the least fill among those that are large enough at every state; constants are
 /// preferred.
 fn best_pivot(
-    code: &mut Sampled,
+    code: &mut SampledProgram,
     rows: &[Vec<Value>],
     open_rows: &[usize],
     open_columns: &[usize],

@@ -3,12 +3,12 @@
 
 use std::collections::HashMap;
 
-use joints::recorded::{Operation, Recorded};
+use joints::recorded::{Operation, RecordedNumber};
 use model::record::Input;
 use model::{RecordedEquations, System};
 use symbolic::{Function, Graph, Program, Value};
 
-use crate::sampled::Sampled;
+use crate::sampled::SampledProgram;
 use crate::subject::{State, Subject};
 
 /// Number of states off the motion at which equations are compared.
@@ -49,7 +49,7 @@ impl Number {
     allow(dead_code, reason = "only modules say it")
 )]
 pub(crate) struct Equations {
-    pub(crate) code: Sampled,
+    pub(crate) code: SampledProgram,
     /// Names of the inputs, and their meanings.
     pub(crate) names: Graph,
     pub(crate) sources: Vec<Source>,
@@ -99,7 +99,7 @@ impl Equations {
             };
             sources.iter().enumerate().map(value).collect()
         });
-        let mut code = Sampled::new(samples.collect(), anywhere.collect());
+        let mut code = SampledProgram::new(samples.collect(), anywhere.collect());
         let mut names = Graph::new();
         let mut inputs = Vec::with_capacity(sources.len());
         for source in &sources {
@@ -183,15 +183,15 @@ fn shift(i: usize, k: usize) -> f64 {
 
 /// C as dense rows of a replayed recording, and a function that looks up its other results.
 pub(crate) fn results<'v>(
-    code: &mut Sampled,
+    code: &mut SampledProgram,
     recording: &RecordedEquations,
     values: &'v [Value],
 ) -> (
     Vec<Vec<Value>>,
-    impl Fn(&[Recorded]) -> Vec<Value> + use<'v>,
+    impl Fn(&[RecordedNumber]) -> Vec<Value> + use<'v>,
 ) {
     let zero = code.program.number(0.0);
-    let row = |entries: &Vec<(usize, Recorded)>| {
+    let row = |entries: &Vec<(usize, RecordedNumber)>| {
         let mut row = vec![zero; recording.force.len()];
         for (column, r) in entries {
             row[*column] = code.program.add(row[*column], values[r.place()]);
@@ -199,12 +199,16 @@ pub(crate) fn results<'v>(
         row
     };
     let c = recording.c.iter().map(row).collect();
-    let of = |list: &[Recorded]| list.iter().map(|r| values[r.place()]).collect();
+    let of = |list: &[RecordedNumber]| list.iter().map(|r| values[r.place()]).collect();
     (c, of)
 }
 
 /// A number of a recording.
-fn number(recording: &RecordedEquations, numbers: &HashMap<usize, Value>, at: Recorded) -> Number {
+fn number(
+    recording: &RecordedEquations,
+    numbers: &HashMap<usize, Value>,
+    at: RecordedNumber,
+) -> Number {
     let known = || Number::Known(recording.number(at.place()).unwrap_or(f64::NAN));
     numbers
         .get(&at.place())
@@ -214,7 +218,7 @@ fn number(recording: &RecordedEquations, numbers: &HashMap<usize, Value>, at: Re
 /// Repeats the operations of a tape in a program, which folds known values; the numbers at some
 /// places are inputs.
 pub(crate) fn replay(
-    code: &mut Sampled,
+    code: &mut SampledProgram,
     recording: &RecordedEquations,
     inputs: &[Value],
     numbers: &HashMap<usize, Value>,
@@ -222,7 +226,7 @@ pub(crate) fn replay(
     let p = &mut code.program;
     let mut values: Vec<Value> = Vec::with_capacity(recording.beside.first);
     for (place, operation) in recording.tape[..recording.beside.first].iter().enumerate() {
-        let of = |r: Recorded| values[r.place()];
+        let of = |r: RecordedNumber| values[r.place()];
         let value = match *operation {
             Operation::Number(x) => match numbers.get(&place) {
                 Some(input) => *input,

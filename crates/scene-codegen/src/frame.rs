@@ -13,7 +13,7 @@ use model::record::Input;
 use symbolic::Value;
 
 use crate::equations::{ANYWHERE, Equations, Source, anywhere, replay, results};
-use crate::sampled::Sampled;
+use crate::sampled::SampledProgram;
 use crate::subject::Subject;
 
 /// Largest difference between the turned equations and those in the frame, as a fraction of their
@@ -33,7 +33,7 @@ pub(crate) struct Frame {
 
 /// C, Γ and Q in a frame.
 #[derive(Clone)]
-pub(crate) struct Seen {
+pub(crate) struct FrameEquations {
     pub(crate) frame: Frame,
     /// Rows of C, dense.
     pub(crate) c: Vec<Vec<Value>>,
@@ -52,28 +52,28 @@ impl Frame {
     }
 
     /// Row quantities, converted from ground components to components in the frame.
-    pub(crate) fn rows_in(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+    pub(crate) fn rows_in(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         self.turned(code, x, &self.rows, false)
     }
 
     /// Row quantities, converted from the frame to ground components.
-    pub(crate) fn rows_out(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+    pub(crate) fn rows_out(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         self.turned(code, x, &self.rows, true)
     }
 
     /// Velocities or accelerations, converted from the frame to ground components.
-    pub(crate) fn velocities_out(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+    pub(crate) fn velocities_out(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         self.turned(code, x, &self.bodies, true)
     }
 
     /// Velocities or forces, converted from ground components to components in the frame.
-    fn velocities_in(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+    fn velocities_in(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         self.turned(code, x, &self.bodies, false)
     }
 
     fn turned(
         &self,
-        code: &mut Sampled,
+        code: &mut SampledProgram,
         x: &[Value],
         pairs: &[[usize; 2]],
         out: bool,
@@ -93,7 +93,7 @@ impl Frame {
     }
 }
 
-impl Seen {
+impl FrameEquations {
     /// The equations in the frame of the ground.
     pub(crate) fn from_ground(e: &Equations) -> Self {
         Self {
@@ -224,7 +224,7 @@ pub(crate) fn may_be_seen_from(subject: &Subject<'_>, angle: usize) -> bool {
         )
     };
     let mut e = Equations::new(&elsewhere);
-    let Some(seen) = Seen::from_body(&mut e, &elsewhere, angle) else {
+    let Some(seen) = FrameEquations::from_body(&mut e, &elsewhere, angle) else {
         return false;
     };
     let frame = &seen.frame;

@@ -7,10 +7,10 @@ use model::{Mechanism, SpaceKind, System};
 use symbolic::{Function as Unary, Op, Program, Value};
 
 use crate::axes::Axes;
-use crate::eliminate::Factored;
+use crate::eliminate::FactoredRows;
 use crate::equations::{Equations, Source};
 use crate::error::CodeError;
-use crate::frame::{Seen, may_be_seen_from};
+use crate::frame::{FrameEquations, may_be_seen_from};
 use crate::subject::Subject;
 
 /// Largest number of operations of a generated function. A compiler takes about a minute for it.
@@ -124,7 +124,7 @@ enum View {
     not(feature = "modules"),
     allow(dead_code, reason = "only modules say it")
 )]
-pub(crate) enum Described {
+pub(crate) enum NamedView {
     Ground,
     GroundAxes,
     JointAxes,
@@ -140,7 +140,7 @@ pub(crate) struct Functions {
     pub(crate) equations: Equations,
     pub(crate) list: Vec<Function>,
     /// Where the equations are solved.
-    pub(crate) view: Described,
+    pub(crate) view: NamedView,
     /// Number of sampled states at which the health of accelerations is below the limit of runs.
     pub(crate) unhealthy: usize,
 }
@@ -219,10 +219,10 @@ impl Functions {
         let mass = mass.as_slice();
         let (kept, position_kept) = (&prepared.decision.kept, &prepared.position_decision.kept);
         let mut seen = match view {
-            View::Angle(angle) => Seen::from_body(&mut e, subject, angle)
+            View::Angle(angle) => FrameEquations::from_body(&mut e, subject, angle)
                 .filter(|seen| seen.keeps_pairs(kept) && seen.keeps_pairs(position_kept))
                 .ok_or(CodeError::NoView)?,
-            _ => Seen::from_ground(&e),
+            _ => FrameEquations::from_ground(&e),
         };
         let axes = match view {
             View::Ground | View::Angle(_) => Some(Axes::default()),
@@ -237,8 +237,8 @@ impl Functions {
         let scaling = mechanism.layout().dimension_scaling(prepared.assembly.size);
         let scale: Vec<f64> = scaling.cols.iter().map(|&x| f64::from(x).exp2()).collect();
         let rows = |kept: &[usize]| kept.iter().map(|&i| seen.c[i].clone()).collect();
-        let velocity = Factored::new(&mut e.code, rows(kept), &axes, (mass, &scale))?;
-        let position = Factored::new(&mut e.code, rows(position_kept), &axes, (mass, &scale))?;
+        let velocity = FactoredRows::new(&mut e.code, rows(kept), &axes, (mass, &scale))?;
+        let position = FactoredRows::new(&mut e.code, rows(position_kept), &axes, (mass, &scale))?;
         let velocity_shares = shares(&mut e, &velocity);
         let position_shares = shares(&mut e, &position);
 
@@ -281,7 +281,7 @@ impl Functions {
         let missing = frame.rows_in(&mut e.code, &missing);
         let missing = axes.rows_in(&mut e.code, &missing);
         let no_force = vec![zero; layout.n_v];
-        let mut correct = |factored: &Factored, kept: &[usize]| {
+        let mut correct = |factored: &FactoredRows, kept: &[usize]| {
             let rhs: Vec<Value> = kept.iter().map(|&i| missing[i]).collect();
             let d = factored.solve(&mut e.code, mass, &rhs, &no_force);
             frame.velocities_out(&mut e.code, &d)
@@ -320,11 +320,11 @@ impl Functions {
             list,
             unhealthy,
             view: match view {
-                View::Angle(k) => Described::Frame(mechanism.coordinate(k).0.to_owned()),
-                View::BodyAxes(k) => Described::Frame(mechanism.bodies()[k].name.clone()),
-                View::GroundAxes => Described::GroundAxes,
-                View::JointAxes => Described::JointAxes,
-                View::Ground => Described::Ground,
+                View::Angle(k) => NamedView::Frame(mechanism.coordinate(k).0.to_owned()),
+                View::BodyAxes(k) => NamedView::Frame(mechanism.bodies()[k].name.clone()),
+                View::GroundAxes => NamedView::GroundAxes,
+                View::JointAxes => NamedView::JointAxes,
+                View::Ground => NamedView::Ground,
             },
         })
     }
@@ -352,7 +352,7 @@ pub(crate) fn recordable(mechanism: &Mechanism) -> Result<(), CodeError> {
 /// Each divisor relative to its smallest size over the sampled states, with its sign. If that size
 /// is less than a fraction of its median, the fraction of the median is used: a motion that passes
 /// near a singular configuration must not define the reference.
-fn shares(e: &mut Equations, factored: &Factored) -> Vec<Value> {
+fn shares(e: &mut Equations, factored: &FactoredRows) -> Vec<Value> {
     let share = |&divisor: &Value| {
         let at = e.code.at(divisor);
         let sign = at.first().map_or(1.0, |d| d.signum());

@@ -11,7 +11,7 @@
 
 use std::collections::HashMap;
 
-use dynamics::{MotionOptions, Prepared};
+use dynamics::{MotionOptions, PreparedMechanism};
 use model::{Mechanism, RecordedEquations, System};
 use scene::{KeyError, Template};
 
@@ -73,7 +73,7 @@ pub(crate) fn vary<'a>(
 
 struct Search<'s> {
     scene: &'s SceneText<'s>,
-    prepared: &'s Prepared,
+    prepared: &'s PreparedMechanism,
     template: Template,
     keys: Vec<Key>,
     /// For each number, a share between ½ and 1; entries of a matrix that mirror each other have
@@ -82,8 +82,8 @@ struct Search<'s> {
 }
 
 /// A mechanism with other numbers, and the run that its scene asks for.
-struct Varied {
-    prepared: Prepared,
+struct MechanismVariant {
+    prepared: PreparedMechanism,
     options: Option<MotionOptions>,
 }
 
@@ -91,7 +91,7 @@ impl<'s> Search<'s> {
     fn new(
         scene: &'s SceneText<'s>,
         names: &[String],
-        prepared: &'s Prepared,
+        prepared: &'s PreparedMechanism,
     ) -> Result<Self, CodeError> {
         let (mut keys, mut parts) = (Vec::new(), Vec::new());
         for name in names {
@@ -123,7 +123,11 @@ impl<'s> Search<'s> {
     }
 
     /// The scene with some numbers changed by their shares.
-    fn changed(&self, which: impl Fn(usize) -> bool, by: f64) -> Result<Varied, CodeError> {
+    fn changed(
+        &self,
+        which: impl Fn(usize) -> bool,
+        by: f64,
+    ) -> Result<MechanismVariant, CodeError> {
         let shares = self.shares.iter().enumerate();
         let shares = shares.map(|(k, share)| if which(k) { by * share } else { 0.0 });
         let shares: Vec<f64> = shares.collect();
@@ -143,16 +147,16 @@ impl<'s> Search<'s> {
             registry,
             drop,
         })?;
-        Ok(Varied { prepared, options })
+        Ok(MechanismVariant { prepared, options })
     }
 
     /// A mechanism on the rows of the described one, if it has everything but its numbers in common
     /// with it.
     fn compared(
         &self,
-        other: &Prepared,
+        other: &PreparedMechanism,
         recordings: [&RecordedEquations; 2],
-    ) -> Result<Prepared, NotAnInput> {
+    ) -> Result<PreparedMechanism, NotAnInput> {
         let breaks = |m: &Mechanism| m.layout().break_times.clone();
         let rows = [&self.prepared.decision, &self.prepared.position_decision];
         let [kept, position_kept] = rows.map(|d| d.kept.as_slice());
@@ -202,7 +206,7 @@ impl<'s> Search<'s> {
         &self,
         sign: f64,
         described: &RecordedEquations,
-    ) -> Result<(Prepared, Vec<State>), CodeError> {
+    ) -> Result<(PreparedMechanism, Vec<State>), CodeError> {
         let mut first = None;
         for share in SHARES
             .iter()
@@ -239,7 +243,7 @@ impl<'s> Search<'s> {
         &self,
         described: &RecordedEquations,
         singles: &[Option<RecordedEquations>],
-        together: &[(Prepared, Vec<State>)],
+        together: &[(PreparedMechanism, Vec<State>)],
     ) -> Inputs {
         let together: Vec<RecordedEquations> = together
             .iter()
@@ -279,7 +283,7 @@ impl<'s> Search<'s> {
     fn described_place(&self, recording: &RecordedEquations, place: usize) -> String {
         let mechanism = &self.prepared.mechanism;
         let space = mechanism.space();
-        let at = |list: &[joints::Recorded]| list.iter().position(|r| r.place() == place);
+        let at = |list: &[joints::RecordedNumber]| list.iter().position(|r| r.place() == place);
         if let Some(column) = at(&recording.beside.mass) {
             let (body, direction) = mechanism.coordinate(column);
             return if space.is_rotation(column) {

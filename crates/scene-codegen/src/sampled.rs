@@ -8,7 +8,7 @@ use symbolic::{Program, Value};
 const SAME: f64 = 1e-13;
 
 /// Straight-line code and the values of its operations at some states.
-pub(crate) struct Sampled {
+pub(crate) struct SampledProgram {
     pub(crate) program: Program,
     motion: Samples,
     /// States that satisfy no constraint, with arbitrary functions of time.
@@ -49,7 +49,7 @@ impl Samples {
     }
 }
 
-impl Sampled {
+impl SampledProgram {
     /// An empty program; `motion` and `anywhere` contain the values of all inputs for each state.
     pub(crate) fn new(motion: Vec<Vec<f64>>, anywhere: Vec<Vec<f64>>) -> Self {
         Self {

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{KeptRowMotion, MotionOptions, Prepared, simulate};
+use dynamics::{KeptRowMotion, MotionOptions, PreparedMechanism, simulate};
 use joints::space3::Pose;
 use model::SpaceKind;
 use model::record::Input;
@@ -27,7 +27,7 @@ pub struct State {
 /// A prepared mechanism and states of the motion that its code is made for.
 pub struct Subject<'a> {
     /// The mechanism, its start and its kept rows.
-    pub prepared: &'a Prepared,
+    pub prepared: &'a PreparedMechanism,
     /// States of the motion; the start is the first. After those of the described mechanism come
     /// those of mechanisms in which the inputs have other values.
     pub states: Vec<State>,
@@ -47,13 +47,13 @@ pub(crate) fn rotation(q: &[f64], body: usize) -> [[f64; 3]; 3] {
 impl<'a> Subject<'a> {
     /// The start alone.
     #[must_use]
-    pub fn at_start(prepared: &'a Prepared) -> Self {
+    pub fn at_start(prepared: &'a PreparedMechanism) -> Self {
         let (q, v) = (prepared.q.clone(), prepared.v.clone());
         Self::at_states(prepared, vec![State { t: 0.0, q, v }])
     }
 
     /// States without inputs.
-    pub(crate) fn at_states(prepared: &'a Prepared, states: Vec<State>) -> Self {
+    pub(crate) fn at_states(prepared: &'a PreparedMechanism, states: Vec<State>) -> Self {
         Self {
             prepared,
             variants: vec![None; states.len()],
@@ -66,7 +66,10 @@ impl<'a> Subject<'a> {
     ///
     /// # Errors
     /// If the run stops.
-    pub fn of_run(prepared: &'a Prepared, options: &MotionOptions) -> Result<Self, CodeError> {
+    pub fn of_run(
+        prepared: &'a PreparedMechanism,
+        options: &MotionOptions,
+    ) -> Result<Self, CodeError> {
         if options.t_end == 0.0 {
             return Ok(Self::at_start(prepared));
         }

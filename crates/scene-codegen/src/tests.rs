@@ -4,7 +4,7 @@
 use dynamics::KeptRowMotion;
 use linalg::KeptRowSaddle;
 use model::System;
-use pfaff::solvability::Chosen;
+use pfaff::solvability::ChosenValues;
 use pfaff::{AssembledScene, RunOptions, Study};
 use symbolic::Symbol;
 
@@ -154,7 +154,7 @@ fn compare(name: &str, text: &str, n: usize) -> (usize, f64) {
         let differences = a.iter().zip(&expected).map(|(a, e)| (a - e).abs() / size);
         let apart = differences.fold(0.0, f64::max);
         let (lambda, _) = run(&functions, &subject, "multipliers", &state, none);
-        let mut expected = Chosen::new(vec![0.0; layout.rows()], Vec::new());
+        let mut expected = ChosenValues::new(vec![0.0; layout.rows()], Vec::new());
         motion.multipliers(t, q, v, &mut expected).expect("solves");
         let expected = expected.as_chosen();
         let size = largest(expected).max(largest(mechanism.mass()) * size);

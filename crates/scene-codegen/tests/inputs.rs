@@ -6,10 +6,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use dynamics::code::SharedCode;
-use dynamics::{CodeMismatch, KeptRowMotion, Prepared, SceneCode, simulate};
+use dynamics::{CodeMismatch, KeptRowMotion, PreparedMechanism, SceneCode, simulate};
 use linalg::KeptRowSaddle;
 use model::{Registry, System};
-use pfaff::solvability::Chosen;
+use pfaff::solvability::ChosenValues;
 use pfaff::{AssembledScene, RunOptions, Study};
 use pfaff_scene_codegen::{Choices, CodeError, NotAnInput, State, Subject, scene_tape, scene_text};
 use scene::Template;
@@ -98,7 +98,7 @@ fn on_rows_of(code: &dyn SceneCode, mut study: Study) -> Study {
 }
 
 /// The code with the numbers of a mechanism.
-fn of(code: &dyn SceneCode, prepared: &Prepared) -> Arc<SharedCode> {
+fn of(code: &dyn SceneCode, prepared: &PreparedMechanism) -> Arc<SharedCode> {
     let inputs = code.inputs().expect("it takes numbers");
     let values = inputs.of("code", &prepared.mechanism).expect("its numbers");
     code.with_inputs(&values).expect("as many")
@@ -155,7 +155,7 @@ fn compare(what: &str, code: &dyn SceneCode, study: &Study) {
     };
     let (mut a, mut expected) = (vec![0.0; n], vec![0.0; n]);
     let mut lambda = vec![0.0; rows];
-    let mut expected_lambda = Chosen::new(vec![0.0; rows], Vec::new());
+    let mut expected_lambda = ChosenValues::new(vec![0.0; rows], Vec::new());
     let (mut phi, mut residual) = (vec![0.0; layout.m], vec![0.0; rows]);
     let mut compared = 0;
     for State { t, q, v } in states(study) {
@@ -254,7 +254,7 @@ fn a_module_with_inputs_is_the_interpreter_of_every_scene_with_other_numbers_in_
 /// A run takes the numbers from its mechanism by itself.
 #[test]
 fn runs_take_the_numbers_of_their_scenes() {
-    let ends = |prepared: &Prepared, study: &Study| {
+    let ends = |prepared: &PreparedMechanism, study: &Study| {
         let mut last = Vec::new();
         let options = study.options.as_ref().expect("a run");
         let summary = simulate(prepared, options, |row| {

@@ -4,7 +4,9 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dynamics::{EventKind, Method, MotionOptions, Plan, Prepared, Summary, Wanted, simulate};
+use dynamics::{
+    EventKind, Method, MotionOptions, OutputRequest, Plan, PreparedMechanism, Summary, simulate,
+};
 use model::System;
 use pfaff::model::Registry;
 use pfaff::{AssembledScene, RunOptions};
@@ -23,7 +25,7 @@ const SAME: f64 = 1e-6;
 const SAME_IN_SPACE: f64 = 1e-9;
 
 /// Rows [q; v].
-fn run(prepared: &Prepared, options: &MotionOptions) -> (Vec<Vec<f64>>, Summary) {
+fn run(prepared: &PreparedMechanism, options: &MotionOptions) -> (Vec<Vec<f64>>, Summary) {
     let mut rows = Vec::new();
     let summary = simulate(prepared, options, |row| {
         rows.push([row.q, row.v].concat());
@@ -69,7 +71,7 @@ fn compare(name: &str, text: &str) -> (usize, f64) {
         .prepared
         .with_code(Arc::new(tape))
         .expect("its own code");
-    let plan = Plan::new(&coded, &options, &Wanted::default()).expect("plans");
+    let plan = Plan::new(&coded, &options, &OutputRequest::default()).expect("plans");
     let is_stiff = interpreted.method == Method::Radau5;
     assert_eq!(plan.code.value, !is_stiff, "{name}");
     let (found, summary) = run(&coded, &options);

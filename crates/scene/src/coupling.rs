@@ -1,6 +1,6 @@
 //! Joints of the type `coupling`: a measure of one joint follows a measure of another.
 
-use model::coupling::Placed;
+use model::coupling::AttachedConstraint;
 
 use crate::dimension::Dimension;
 use crate::joint_measure::Purpose;
@@ -27,7 +27,7 @@ pub(crate) const KEYS: [Key; 3] = [MEASURES, RATIO, COEFFICIENTS];
 pub(crate) fn read<S: SceneSpace>(
     table: &mut Table,
     references: &References<'_, '_, '_, S>,
-) -> Option<Placed<S>> {
+) -> Option<AttachedConstraint<S>> {
     let usage = (Purpose::Couple, references.is_active);
     let field = table.required(&MEASURES);
     let measures = field.as_ref().and_then(|field| {

@@ -2,7 +2,7 @@
 
 use joints::Argument;
 use joints::spec::Measure;
-use model::coupling::Measured;
+use model::coupling::AttachedMeasure;
 use model::registry::{ConstraintDefinition, DriveDefinition};
 use model::{BodyRef, Force, Function, Law};
 
@@ -160,7 +160,7 @@ impl<S: SceneSpace> JointMeasure<'_, '_, S> {
 
     /// The bodies of the joint and the rows that prescribe the measure. The joint accepted these
     /// arguments, so only a definition that is registered wrongly is reported.
-    pub(crate) fn rows(&self, field: &Field) -> Option<Measured<S>> {
+    pub(crate) fn rows(&self, field: &Field) -> Option<AttachedMeasure<S>> {
         let (bodies, arguments) = self.arguments()?;
         let built = (self.drive.build)(&arguments);
         let element = built.map_err(|error| refuse(field, &error));

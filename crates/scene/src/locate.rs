@@ -7,29 +7,31 @@ use dynamics::{MotionError, MotionFault};
 use joints::is_usable;
 use model::codes::Code;
 use model::start::VelocityConflict;
-use model::{AnyDescription, BodyRecord, BodyRef, BuildError, RowLabel, StartError, Stated};
+use model::{
+    AnyDescription, BodyRecord, BodyRef, BuildError, RowLabel, StartError, ToleranceScope,
+};
 
 use crate::diagnostic::Diagnostic;
 use crate::source_map::{BODY_KEYS, Entry, PLACE_KEYS, SourceMap};
 
 /// An error with a code of its own.
-trait Coded: std::error::Error {
+trait CodedError: std::error::Error {
     fn code(&self) -> Code;
 }
 
-impl Coded for BuildError {
+impl CodedError for BuildError {
     fn code(&self) -> Code {
         self.code()
     }
 }
 
-impl Coded for StartError {
+impl CodedError for StartError {
     fn code(&self) -> Code {
         self.code()
     }
 }
 
-impl Coded for MotionError {
+impl CodedError for MotionError {
     fn code(&self) -> Code {
         self.code()
     }
@@ -79,12 +81,12 @@ pub(crate) fn build(map: &SourceMap, d: &AnyDescription, error: &BuildError) -> 
         BuildError::Tolerance { of, field, value } => {
             let key = field.replace(' ', "_");
             let span = match of {
-                Stated::Scene => map.section("scene", &key),
-                Stated::Body(body) => {
+                ToleranceScope::Scene => map.section("scene", &key),
+                ToleranceScope::Body(body) => {
                     body_key(map, d, body, field, |x| x.to_bits() == value.to_bits())
                 }
-                Stated::Marker(name) => place_key(map, name, &[&key]),
-                Stated::Joint(name) | Stated::Drive(name) => {
+                ToleranceScope::Marker(name) => place_key(map, name, &[&key]),
+                ToleranceScope::Joint(name) | ToleranceScope::Drive(name) => {
                     element_key(map, name, &[&key, "joint"])
                 }
             };
@@ -237,7 +239,7 @@ fn contradicting(
     map: &SourceMap,
     (drives, others): (Vec<&RowLabel>, Vec<&RowLabel>),
     forcing: &[&str],
-    error: &impl Coded,
+    error: &impl CodedError,
 ) -> Diagnostic {
     // Rows that drives prevent from holding are not wrong themselves.
     let mut spans = forcing
@@ -266,7 +268,7 @@ fn contradicting(
 /// Largest number of marked places for one error.
 const MARKS: usize = 20;
 
-fn at(map: &SourceMap, span: Range<usize>, error: &impl Coded, label: &str) -> Diagnostic {
+fn at(map: &SourceMap, span: Range<usize>, error: &impl CodedError, label: &str) -> Diagnostic {
     Diagnostic::error(error.code(), &map.text, span, error.to_string(), label)
 }
 
@@ -275,7 +277,7 @@ fn at(map: &SourceMap, span: Range<usize>, error: &impl Coded, label: &str) -> D
 fn at_rows<'a>(
     map: &SourceMap,
     labels: impl IntoIterator<Item = &'a RowLabel>,
-    error: &impl Coded,
+    error: &impl CodedError,
     marks: [&str; 2],
 ) -> Diagnostic {
     let joints = labels.into_iter().map(|label| label.joint.as_str());
@@ -286,7 +288,7 @@ fn at_rows<'a>(
 fn at_joints<'a>(
     map: &SourceMap,
     names: impl IntoIterator<Item = &'a str>,
-    error: &impl Coded,
+    error: &impl CodedError,
     [first_mark, mark]: [&str; 2],
 ) -> Diagnostic {
     let mut seen = BTreeSet::new();

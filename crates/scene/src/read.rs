@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 
 use joints::{Plane, Space3};
 use model::{
-    AnyDescription, BuildError, Described, Mechanism, Observed, Registry, StartOptions, Stated,
+    AnyDescription, BuildError, Mechanism, MechanismDescription, Observables, Registry,
+    StartOptions, ToleranceScope,
 };
 use toml::de::DeTable;
 
@@ -171,11 +172,11 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
     let drives = parts.drives.into_iter();
     let (drives, drive_entries) = drives.filter_map(DriveRead::into_motion).unzip();
     let (forces, force_entries) = parts.forces.into_iter().unzip();
-    let description = S::described(Described {
+    let description = S::described(MechanismDescription {
         name: heading.name,
         gravity: heading.gravity,
         tolerance: heading.tolerance,
-        observed: Observed {
+        observed: Observables {
             markers: parts.bodies.markers.list,
             measures,
         },
@@ -262,7 +263,7 @@ fn check(
             BuildError::DuplicateName { .. } | BuildError::Ground | BuildError::NoBodies => {}
             // Its joint has the same problem.
             BuildError::Tolerance {
-                of: Stated::Drive(_),
+                of: ToleranceScope::Drive(_),
                 ..
             } => {}
             // Its joint has the same problem.

@@ -3,8 +3,8 @@
 
 use dynamics::{MotionError, MotionOptions};
 use model::{
-    AnyDescription, BodySpace, BuildError, Described, Description, SpatialDescription, StartError,
-    StartOptions,
+    AnyDescription, BodySpace, BuildError, Description, MechanismDescription, SpatialDescription,
+    StartError, StartOptions,
 };
 
 use crate::combination::{self, Combination, CombinationError, ReactionNames, Reactions};
@@ -177,7 +177,7 @@ impl Scene {
 
 /// Keeps the active parts of a mechanism.
 fn retain_active<S: BodySpace>(
-    d: &mut Described<S>,
+    d: &mut MechanismDescription<S>,
     source: &mut SourceMap,
     inactive: &mut Vec<Inactive>,
 ) {

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use joints::{Argument, Plane, Space, Space3};
 use model::start::KeepLevel;
-use model::{AnyDescription, BodySpace, Definitions, Described, Registry};
+use model::{AnyDescription, BodySpace, Definitions, MechanismDescription, Registry};
 
 use crate::key::Key;
 
@@ -72,7 +72,7 @@ pub(crate) trait SceneSpace: BodySpace {
     const CARRIES: bool;
 
     /// The description for programs that take those of both spaces.
-    fn described(d: Described<Self>) -> AnyDescription;
+    fn described(d: MechanismDescription<Self>) -> AnyDescription;
 
     /// The definitions of a registry that belong here.
     fn definitions(registry: &Registry) -> &Definitions<Self>;

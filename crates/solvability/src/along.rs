@@ -33,7 +33,9 @@ use crate::stretches::Stretches;
 use path::{Detail, Path};
 use stretches::ends_of_pieces;
 
-pub use data::{Along, AlongError, Difference, GenericRank, Passage, PassageKind, Stretch};
+pub use data::{
+    AlongError, Difference, GenericRank, MotionAnalysis, Passage, PassageKind, Stretch,
+};
 
 /// Computes the verdicts along a motion of a mechanism. `motion` returns the state at a given time;
 /// it is called only for times between the first and the last sample time. It may be a closed form
@@ -74,7 +76,7 @@ pub fn along_motion(
     mechanism: &Mechanism,
     motion: impl FnMut(f64) -> State + Send,
     times: &[f64],
-) -> Result<Along, AlongError> {
+) -> Result<MotionAnalysis, AlongError> {
     let motion = Mutex::new(motion);
     let of_part = |t: f64, extent: &Extent| {
         let whole = match motion.lock() {
@@ -106,7 +108,7 @@ pub fn along_motion_of_parts(
     motion: impl Fn(f64, &Extent) -> State + Sync,
     times: &[f64],
     of_run: Option<&Stretches>,
-) -> Result<Along, AlongError> {
+) -> Result<MotionAnalysis, AlongError> {
     let times = with_break_times(mechanism, times, of_run)?;
     let first = motion(times[0], &Extent::Whole);
     state::check(mechanism, times[0], &first.q, &first.v)?;
@@ -127,7 +129,7 @@ fn judged_as_one(
     motion: impl FnMut(f64) -> State,
     times: &[f64],
     of_run: Option<Stretches>,
-) -> Result<Along, AlongError> {
+) -> Result<MotionAnalysis, AlongError> {
     let mut path = Path::new(mechanism, motion, times, Detail::Verdicts)?;
     let mut verdicts = of_run.unwrap_or_else(|| stretches::of_samples(&path));
     compare::look_at_samples(&mut verdicts, &path);
@@ -151,7 +153,7 @@ fn judged_as_one(
         compare::look(&mut verdicts, (*time, judged));
     }
     verdicts.sum_up(&[]);
-    Ok(Along {
+    Ok(MotionAnalysis {
         verdicts,
         generic: GenericRank {
             time: path.typical,

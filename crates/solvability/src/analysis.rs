@@ -2,7 +2,7 @@
 //! added up and numbered as in the whole mechanism.
 
 use crate::error::AnalysisError;
-use crate::judged::{Dependency, Judged, ReactionVerdict};
+use crate::judged::{Dependency, PartResults, ReactionVerdict};
 use crate::limits::ROWS_MAX;
 use crate::pose::{decide_dropping, evaluated};
 use crate::row_decision::RowDecision;
@@ -11,11 +11,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use linalg::{Matrix, Scaling};
 use model::start::scene_size;
-use model::{ConstraintId, Known, Mechanism, System, Tolerance};
+use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System, Tolerance};
 use rank::{Evidence, KeptRowsError, NearlyRedundant, RankDecision};
 use rayon::prelude::*;
 
-use crate::certificate::Rows;
+use crate::certificate::UncertainRows;
 use crate::large::judge_sparse;
 use crate::mechanism::part_verdicts;
 use crate::parts::{Extent, ListedRows, PartAnalysis, Partition};
@@ -139,7 +139,7 @@ impl Analysis {
     }
 
     /// Adds up the results of the parts.
-    pub(crate) fn of(mechanism: &Mechanism, t: f64, q: &[f64], judged: Vec<Judged>) -> Self {
+    pub(crate) fn of(mechanism: &Mechanism, t: f64, q: &[f64], judged: Vec<PartResults>) -> Self {
         let layout = mechanism.layout();
         let mut analysis = Self {
             time: t,
@@ -159,7 +159,7 @@ impl Analysis {
             warnings: Vec::new(),
             parts: Vec::with_capacity(judged.len()),
         };
-        for Judged {
+        for PartResults {
             part,
             reactions,
             dependencies,
@@ -208,7 +208,7 @@ impl Analysis {
 /// - [`AnalysisError::Large`]: joints on common cycles are joined too closely for a sparse
 ///   decision.
 pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
-    analyse_known(mechanism, t, q, Known::AsStored)
+    analyse_known(mechanism, t, q, ConfigurationAccuracy::AsStored)
 }
 
 /// Like [`analyse`], for a configuration that is less accurate than it is stored: `known` states
@@ -220,7 +220,7 @@ pub fn analyse_known(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],
-    known: Known,
+    known: ConfigurationAccuracy,
 ) -> Result<Analysis, AnalysisError> {
     analyse_with_progress(mechanism, t, q, known, |_| ())
 }
@@ -235,7 +235,7 @@ pub fn analyse_with_progress(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],
-    known: Known,
+    known: ConfigurationAccuracy,
     progress: impl Fn(usize) + Sync,
 ) -> Result<Analysis, AnalysisError> {
     check_configuration(mechanism, t, q)?;
@@ -266,7 +266,7 @@ pub fn analyse_decided(
         let (own, q) = (part.extent.mechanism(mechanism), part.extent.coordinates(q));
         let found = match &part.certified {
             Some(certified) => {
-                let rows = Rows::new(&own, t, &q, Known::AsStored)?;
+                let rows = UncertainRows::new(&own, t, &q, ConfigurationAccuracy::AsStored)?;
                 part_verdicts(&own, &evaluated(&own, t, &q), &rows, certified[0].clone())?
             }
             None => judge_sparse(&own, &evaluated(&own, t, &q), &q)?,
@@ -275,7 +275,7 @@ pub fn analyse_decided(
         progress(done.fetch_add(joints, Ordering::Relaxed) + joints);
         Ok(found.placed(mechanism, part.extent.clone()))
     });
-    let parts: Vec<Result<Judged, AnalysisError>> = parts.collect();
+    let parts: Vec<Result<PartResults, AnalysisError>> = parts.collect();
     let judged = parts.into_iter().collect::<Result<_, _>>()?;
     Ok(Analysis::of(mechanism, t, q, judged))
 }
@@ -293,7 +293,7 @@ pub fn analyse_by_cycles(
     check_configuration(mechanism, t, q)?;
     let partition = Partition::by_cycles(mechanism, t, q);
     by_parts(mechanism, t, q, &partition, |part, q, _| {
-        judged_alone(part, t, q, Known::AsStored)
+        judged_alone(part, t, q, ConfigurationAccuracy::AsStored)
     })
 }
 
@@ -320,7 +320,7 @@ pub fn analyse_dropping(
     let found = by_parts(mechanism, t, q, &partition, |part, q, extent| {
         let own = extent.own_rows(&listed);
         if part.layout().rows() > ROWS_MAX {
-            let found = judged_alone(part, t, q, Known::AsStored)?;
+            let found = judged_alone(part, t, q, ConfigurationAccuracy::AsStored)?;
             // Either these are the rows that were dropped anyway, or there are too many rows to
             // choose.
             return if found.part.decision.rows().dropped == own {
@@ -333,7 +333,7 @@ pub fn analyse_dropping(
             };
         }
         let s = evaluated(part, t, q);
-        let rows = Rows::new(part, t, q, Known::AsStored)?;
+        let rows = UncertainRows::new(part, t, q, ConfigurationAccuracy::AsStored)?;
         let certified = rows.decide()?;
         // Within a stated tolerance the rank need not be that of the matrix.
         let decision = if part.has_tolerances() {
@@ -374,7 +374,7 @@ fn by_parts(
     t: f64,
     q: &[f64],
     partition: &Partition,
-    judge: impl Fn(&Mechanism, &[f64], &Extent) -> Result<Judged, AnalysisError> + Sync,
+    judge: impl Fn(&Mechanism, &[f64], &Extent) -> Result<PartResults, AnalysisError> + Sync,
 ) -> Result<Analysis, AnalysisError> {
     let judged = partition.map(mechanism, |part, extent| {
         let found = judge(part, &extent.coordinates(q), &extent)?;
@@ -388,10 +388,10 @@ fn judged_alone(
     part: &Mechanism,
     t: f64,
     q: &[f64],
-    known: Known,
-) -> Result<Judged, AnalysisError> {
+    known: ConfigurationAccuracy,
+) -> Result<PartResults, AnalysisError> {
     if part.layout().rows() <= ROWS_MAX {
-        let rows = Rows::new(part, t, q, known)?;
+        let rows = UncertainRows::new(part, t, q, known)?;
         let decision = rows.decide()?;
         part_verdicts(part, &evaluated(part, t, q), &rows, decision)
     } else {

@@ -12,7 +12,7 @@ use std::borrow::Cow;
 
 use linalg::{DdMatrix, Matrix};
 use model::start::scene_size;
-use model::{Known, Mechanism, Polished, Scratch, System};
+use model::{ConfigurationAccuracy, Mechanism, PolishedConfiguration, Scratch, System};
 use rank::{
     Grounds, KeptRowsError, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision,
     RankError, RankReading, WeakestCombination, certify_rank,
@@ -22,7 +22,7 @@ use crate::numerical_rank::{Nearness, Question, Reading, UncertainMatrix};
 use crate::state::check_configuration;
 
 /// C of a mechanism without dimensions, with the accuracy of its entries.
-pub(crate) struct Rows<'a> {
+pub(crate) struct UncertainRows<'a> {
     mechanism: &'a Mechanism,
     /// Φ and C evaluated at q.
     scratch: Cow<'a, Scratch>,
@@ -36,10 +36,15 @@ pub(crate) struct Rows<'a> {
     extended: Option<DdMatrix>,
 }
 
-impl<'a> Rows<'a> {
+impl<'a> UncertainRows<'a> {
     /// C at the pose of the scratch, in `f64`; q are its coordinates.
     pub(crate) fn in_double(mechanism: &'a Mechanism, s: &'a Scratch, q: &'a [f64]) -> Self {
-        Self::at(mechanism, Cow::Borrowed(s), q, Known::AsStored)
+        Self::at(
+            mechanism,
+            Cow::Borrowed(s),
+            q,
+            ConfigurationAccuracy::AsStored,
+        )
     }
 
     /// C without dimensions of a mechanism of this size, and the accuracy of its entries, both
@@ -62,7 +67,7 @@ impl<'a> Rows<'a> {
         mechanism: &'a Mechanism,
         scratch: Cow<'a, Scratch>,
         q: &'a [f64],
-        known: Known,
+        known: ConfigurationAccuracy,
     ) -> Self {
         let size = scene_size(mechanism, q);
         let uncertain = UncertainMatrix::new(mechanism, &scratch, size, known);
@@ -90,14 +95,14 @@ impl<'a> Rows<'a> {
         mechanism: &'a Mechanism,
         t: f64,
         q: &'a [f64],
-        known: Known,
+        known: ConfigurationAccuracy,
     ) -> Result<Self, AnalysisError> {
         check_configuration(mechanism, t, q)?;
         let scratch = Cow::Owned(evaluated(mechanism, t, q));
         let mut rows = Self::at(mechanism, scratch, q, known);
         if mechanism.layout().rows() <= ROWS_MAX && rows.uncertain.c.first_non_finite().is_none() {
             let kept = promising_holonomic(mechanism, &rows.scratch, q)?;
-            if let Ok(polished) = Polished::at(mechanism, t, q, &kept) {
+            if let Ok(polished) = PolishedConfiguration::at(mechanism, t, q, &kept) {
                 let c = polished
                     .c
                     .scaled(&mechanism.layout().dimension_scaling(rows.size));
@@ -359,7 +364,10 @@ pub(crate) fn holding_together(
         return rows;
     }
     let s = evaluated(mechanism, t, q);
-    match Rows::in_double(mechanism, &s, q).select(&rows).decide() {
+    match UncertainRows::in_double(mechanism, &s, q)
+        .select(&rows)
+        .decide()
+    {
         Ok(decision) if decision.is_decided() => decision.kept.iter().map(|&k| rows[k]).collect(),
         _ => rows,
     }
@@ -372,5 +380,5 @@ pub(crate) fn holding_together(
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
 /// - [`AnalysisError::Rank`]: C is not finite.
 pub fn certify(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<RankDecision, AnalysisError> {
-    Rows::new(mechanism, t, q, Known::AsStored)?.decide()
+    UncertainRows::new(mechanism, t, q, ConfigurationAccuracy::AsStored)?.decide()
 }

@@ -22,7 +22,7 @@ use model::{ConstraintId, Layout, RowRanges};
 use rank::{KeptRowsError, RankStatus};
 
 pub use carried::{CarriedChoices, CarriedSolution, NamedChoice};
-pub use chosen::Chosen;
+pub use chosen::ChosenValues;
 pub(crate) use equations::solution_under;
 pub use equations::{Equations, RowTerms, Solution, solution};
 pub use error::ChoiceError;

@@ -202,7 +202,7 @@ pub fn contradictions(
     let size = scene_size(mechanism, q);
     let scales = mechanism.scales(&s);
     let compared = |level: Level<'_>, decision, values| {
-        let comparison = Comparison {
+        let comparison = LevelValues {
             level,
             prescribed: &s,
             decision,
@@ -238,7 +238,7 @@ pub fn may_miss(mechanism: &Mechanism) -> bool {
 }
 
 /// Values of all rows at one level, and the size of their terms.
-struct Comparison<'a> {
+struct LevelValues<'a> {
     level: Level<'a>,
     /// Scratch in which functions of time have been evaluated.
     prescribed: &'a Scratch,
@@ -249,7 +249,7 @@ struct Comparison<'a> {
     share: f64,
 }
 
-impl Comparison<'_> {
+impl LevelValues<'_> {
     /// Contradictions of the shortest circuits.
     fn contradictions(&self, mechanism: &Mechanism, time: f64) -> Vec<Contradiction> {
         match self.decision.redundancy {

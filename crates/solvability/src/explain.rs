@@ -13,10 +13,10 @@ use model::codes::Code;
 use model::space::norm;
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Layout, Mechanism, Scratch, SpaceKind, System};
-use rank::{Circuit, Settled};
+use rank::{Circuit, StructureVerdict};
 
 use crate::directions::readable;
-use crate::loads::{self, Told};
+use crate::loads::{self, LoadDescription};
 use crate::matrices::{QueryError, Solvability};
 use crate::verdict::Verdict;
 use crate::words::{self, list, names};
@@ -34,7 +34,7 @@ pub struct Explanation {
     pub reactions: Vec<ReactionExplanation>,
     /// Joints and drives whose reactions are unique because of the structure alone, with the
     /// reason.
-    pub settled: Vec<(ConstraintId, Settled)>,
+    pub settled: Vec<(ConstraintId, StructureVerdict)>,
 }
 
 /// Loads that joints can put on each other while the total force on each body is zero.
@@ -208,7 +208,7 @@ pub fn explain(
         .layout()
         .constraint_ids()
         .zip(structure.groups)
-        .filter(|(id, why)| !matches!(why, Settled::Open(_)) && is_unique(id));
+        .filter(|(id, why)| !matches!(why, StructureVerdict::Open(_)) && is_unique(id));
     Ok(Explanation {
         stresses,
         mixing,
@@ -268,13 +268,13 @@ fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvabili
                 );
                 let share = match told {
                     None => "share loads".to_owned(),
-                    Some(Told::Common(load)) => {
+                    Some(LoadDescription::Common(load)) => {
                         format!("can carry {load} that the bodies cannot tell apart")
                     }
-                    Some(Told::Each(load)) => {
+                    Some(LoadDescription::Each(load)) => {
                         format!("can each carry {load} that the bodies cannot tell apart")
                     }
-                    Some(Told::Various(loads)) => {
+                    Some(LoadDescription::Various(loads)) => {
                         format!("share loads that the bodies cannot tell apart ({loads})")
                     }
                 };

@@ -20,7 +20,7 @@ use crate::freedoms::motions_among;
 use crate::limits::{AT_REST_SPEED, PUSHES, ROUNDING_PUSH};
 use crate::pose::{evaluated, velocity_units};
 use crate::row_decision::RowDecision;
-use crate::second_order::{Accelerated, Restricted, SecondOrder, restrictions};
+use crate::second_order::{AccelerationVerdict, RestrictedVelocities, SecondOrder, restrictions};
 use crate::state::{StateError, check};
 use crate::value::NoFiniteReaction;
 
@@ -85,7 +85,7 @@ impl<'a> Instant<'a> {
     }
 
     /// What is said of the reactions of a set of bodies; `None` if they are finite.
-    fn set(&self, set: &Restricted) -> Result<Option<NoFiniteReaction>, StateError> {
+    fn set(&self, set: &RestrictedVelocities) -> Result<Option<NoFiniteReaction>, StateError> {
         let groups = self.groups(set);
         let prescribed = groups
             .iter()
@@ -115,9 +115,9 @@ impl<'a> Instant<'a> {
         }
         let loads = self.pushing(std::slice::from_ref(&excluded));
         let decided = match set.accelerated(&along) {
-            Accelerated::Possible => return Ok(None),
-            Accelerated::Excluded => true,
-            Accelerated::Undecided => false,
+            AccelerationVerdict::Possible => return Ok(None),
+            AccelerationVerdict::Excluded => true,
+            AccelerationVerdict::Undecided => false,
         };
         self.told(groups, &[excluded], loads, decided).map(Some)
     }
@@ -127,7 +127,7 @@ impl<'a> Instant<'a> {
     }
 
     /// Joints and drives of the bodies of a set.
-    fn groups(&self, set: &Restricted) -> Vec<ConstraintId> {
+    fn groups(&self, set: &RestrictedVelocities) -> Vec<ConstraintId> {
         let layout = self.mechanism.layout();
         let is_own = |id: &ConstraintId| {
             let bodies = layout.groups[id.0].bodies.iter();
@@ -137,7 +137,7 @@ impl<'a> Instant<'a> {
         layout.constraint_ids().filter(is_own).collect()
     }
 
-    fn is_moving(&self, set: &Restricted) -> bool {
+    fn is_moving(&self, set: &RestrictedVelocities) -> bool {
         let space = self.mechanism.space();
         let mut columns = set.bodies.iter().flat_map(|&b| space.columns_of(b));
         columns.any(|j| (self.v[j] / self.units[j]).abs() > AT_REST_SPEED)

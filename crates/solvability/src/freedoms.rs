@@ -25,8 +25,8 @@ use crate::limits::ROWS_MAX;
 use crate::pose::{decide, evaluated};
 use crate::second_order::{SecondOrder, is_locked, restrictions};
 use crate::state::{StateError, check_configuration};
-use connected::Connected;
-use motions::Decided;
+use connected::ConnectedSets;
+use motions::PartRank;
 
 pub use motions::{FreeMotion, FreeMotions, LeftOut};
 pub(crate) use ranks::PartialRanks;
@@ -80,7 +80,7 @@ pub fn motions_among(
     velocities: &[Vec<f64>],
 ) -> Result<Vec<FreeMotion>, StateError> {
     check_configuration(mechanism, t, q)?;
-    let connected = Connected::new(mechanism, true);
+    let connected = ConnectedSets::new(mechanism, true);
     let mut described = connected.among(t, q, velocities);
     described.extend(connected.alone(q, velocities));
     Ok(described)
@@ -92,7 +92,7 @@ impl Analysis {
     /// # Errors
     /// If q is not a configuration of this mechanism.
     pub fn freedoms(&self, mechanism: &Mechanism, q: &[f64]) -> Result<Freedoms, StateError> {
-        let decided = self.parts.iter().map(|part| Decided {
+        let decided = self.parts.iter().map(|part| PartRank {
             rows: (0..part.rows()).map(|k| part.extent.row(k)).collect(),
             rank: part.decision.rank(),
             without_drives: part.without_drives,
@@ -123,7 +123,7 @@ impl Analysis {
             return Ok(None);
         };
         let restricted = restrictions(mechanism, self.time, q, &decision)?;
-        let connected = Connected::new(mechanism, true);
+        let connected = ConnectedSets::new(mechanism, true);
         let described = |which: SecondOrder| {
             let velocities = restricted.velocities(which);
             connected.among(self.time, q, &velocities)
@@ -168,16 +168,16 @@ impl Freedoms {
         t: f64,
         q: &[f64],
         is_decided: bool,
-        mut decided: Vec<Decided>,
+        mut decided: Vec<PartRank>,
     ) -> Result<Self, StateError> {
         check_configuration(mechanism, t, q)?;
         let layout = mechanism.layout();
-        let of = |drives: bool, decided: &[Decided]| {
+        let of = |drives: bool, decided: &[PartRank]| {
             let rank: usize = decided.iter().map(|part| part.rank).sum();
             let mobility = layout.n_v - rank;
             let motions = match (mobility, is_decided) {
                 (0, _) => FreeMotions::default(),
-                (_, true) => Connected::new(mechanism, drives).motions(t, q, decided),
+                (_, true) => ConnectedSets::new(mechanism, drives).motions(t, q, decided),
                 (freedoms, false) => FreeMotions {
                     motions: Vec::new(),
                     left_out: Some(LeftOut {

@@ -15,7 +15,7 @@ use model::start::scene_size;
 use model::{ConstraintId, Mechanism, System};
 use rank::RankDecision;
 
-use crate::certificate::Rows;
+use crate::certificate::UncertainRows;
 use crate::components::{all_components, judge_all};
 use crate::limits::{ONE_PART, POINTS, POINTS_APART, WALKS};
 use crate::matrices::Solvability;
@@ -23,7 +23,7 @@ use crate::pose::{dimensionless, uncertainty, velocity_units};
 use crate::stretches::worst;
 use crate::verdict::Verdict;
 use leaving::Leaving;
-use walker::{Lasting, Walker, has_lasting_function};
+use walker::{LastingRows, Walker, has_lasting_function};
 
 /// Redundancy at other configurations of the same component.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,7 +121,7 @@ impl Comparison {
         let size = scene_size(mechanism, q);
         let walker = Walker {
             mechanism,
-            rows: Lasting::of(mechanism, t, q),
+            rows: LastingRows::of(mechanism, t, q),
             units: velocity_units(mechanism, size),
             size,
             leaving: Leaving::new(mechanism, t, q),
@@ -196,7 +196,7 @@ impl Comparison {
         let solvability = if self.compared.len() == mechanism.layout().rows() {
             Solvability::from_decision(&decided.c, decided.decision.clone())
         } else {
-            let rows = Rows::in_double(mechanism, &s, &point.q);
+            let rows = UncertainRows::in_double(mechanism, &s, &point.q);
             let all = rows.of_rank(point.rank).ok()??;
             let is_same = all.is_decided() && all.rank == point.rank;
             is_same.then(|| Solvability::from_decision(&rows.matrix(), all))?
@@ -228,7 +228,7 @@ fn compared_rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Vec<usize>>
         return Some(all);
     }
     let s = crate::pose::evaluated(mechanism, t, q);
-    let here = Rows::in_double(mechanism, &s, q).decide().ok()?;
+    let here = UncertainRows::in_double(mechanism, &s, q).decide().ok()?;
     let size = scene_size(mechanism, q);
     let c = dimensionless(mechanism, &s, size);
     let known = uncertainty(mechanism, &s, size);

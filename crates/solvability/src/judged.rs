@@ -94,14 +94,14 @@ pub struct Dependency {
 }
 
 /// Results for a part, in the numbers of the part until [`Self::placed`] is called.
-pub(crate) struct Judged {
+pub(crate) struct PartResults {
     pub(crate) part: PartAnalysis,
     pub(crate) reactions: Vec<ReactionVerdict>,
     pub(crate) dependencies: Vec<Dependency>,
     pub(crate) warnings: Vec<String>,
 }
 
-impl Judged {
+impl PartResults {
     /// A part by itself at time t: its decided rank, the ranks of some of its rows, and what
     /// `verdict` says of each joint and drive. Dependencies are not listed.
     pub(crate) fn new(

@@ -6,7 +6,7 @@
 //! are reported if the dependent rows split into small sets of cycles.
 
 use crate::error::AnalysisError;
-use crate::judged::{Dependency, Judged, ReactionVerdict};
+use crate::judged::{Dependency, PartResults, ReactionVerdict};
 use crate::limits::ROWS_MAX;
 use crate::pose::evaluated;
 
@@ -18,7 +18,7 @@ use crate::analysis::analyse;
 use crate::freedoms::PartialRanks;
 use crate::mechanism::reaction;
 use crate::parts::{PartDecision, parts};
-use crate::sparse::{Decided, decide_some};
+use crate::sparse::{SparseDecision, decide_some};
 
 /// Ranks and verdicts of a large mechanism at the pose of the scratch, in which Φ and C have been
 /// evaluated at coordinates q.
@@ -29,9 +29,9 @@ pub(crate) fn judge_sparse(
     mechanism: &Mechanism,
     s: &Scratch,
     q: &[f64],
-) -> Result<Judged, AnalysisError> {
+) -> Result<PartResults, AnalysisError> {
     let layout = mechanism.layout();
-    let all = Decided::of(mechanism, s, q, 0..layout.rows())?;
+    let all = SparseDecision::of(mechanism, s, q, 0..layout.rows())?;
     let ranks = PartialRanks::of(layout, all.found.rank, |own| {
         let found = decide_some(mechanism, s, q, own.iter().copied())?;
         Ok((found.rank, found.status))
@@ -46,7 +46,7 @@ pub(crate) fn judge_sparse(
         evidence: Box::new(evidence(&all.found)),
     };
     let size = scene_size(mechanism, q);
-    let mut judged = Judged::new(mechanism, s.t, size, decision, ranks, verdict)?;
+    let mut judged = PartResults::new(mechanism, s.t, size, decision, ranks, verdict)?;
     let redundancy = all.found.redundancy;
     if all.found.is_decided() && redundancy > 0 {
         judged.dependencies = dependencies(mechanism, s, q, &judged.reactions)?;

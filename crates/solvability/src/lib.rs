@@ -79,8 +79,8 @@ pub mod verdict;
 mod words;
 
 pub use along::{
-    Along, AlongError, Difference, GenericRank, Passage, PassageKind, Stretch, along_motion,
-    along_motion_of_parts, singular_passages,
+    AlongError, Difference, GenericRank, MotionAnalysis, Passage, PassageKind, Stretch,
+    along_motion, along_motion_of_parts, singular_passages,
 };
 pub use analysis::{
     Analysis, analyse, analyse_by_cycles, analyse_decided, analyse_dropping, analyse_known,
@@ -88,7 +88,7 @@ pub use analysis::{
 };
 pub use certificate::{certify, inseparable};
 pub use choices::{
-    CarriedChoices, CarriedSolution, Choice, ChoiceError, Chosen, Compliance, Distribution,
+    CarriedChoices, CarriedSolution, Choice, ChoiceError, ChosenValues, Compliance, Distribution,
     Equations, NamedChoice, NormWeights, ReactionValues, RowTerms, Solution, minimise, solution,
 };
 pub use error::AnalysisError;
@@ -113,7 +113,7 @@ pub use groups::{
 };
 pub use judged::{ComponentVerdict, Dependency, ReactionVerdict, RowVerdict};
 pub use limits::{CARRIED_VECTORS, FRAGILE, KERNEL_MAX, MOTIONS_REPORTED, MOVED, ONE_PART};
-pub use make_unique::{Allowed, Proposal, Proposals, make_unique};
+pub use make_unique::{DeletableRows, Proposal, Proposals, make_unique};
 pub use matrices::{QueryError, Solvability};
 pub use memory::{VerdictMemory, memory_of_verdicts};
 pub use model::ConstraintLevel;
@@ -127,13 +127,13 @@ pub use rows::{
     rows_of_rank,
 };
 pub use second_order::{
-    CommonZero, Continuation, Restricted, Restrictions, SecondOrder, Undetermined,
+    CommonZero, Continuation, RestrictedVelocities, Restrictions, SecondOrder, SecondOrderDoubt,
     blocked_velocities, common_zero, is_locked, restrictions, second_order,
 };
 pub use sensitivity::{GroupSensitivities, ReactionNumber, ReactionSensitivities, Sensitivities};
 pub use state::{State, StateError};
 pub use stretches::{
-    CarriedState, CarriedVerdicts, GroupStretches, Looked, ReactionStretches, SpecialInstant,
+    CarriedState, CarriedVerdicts, GroupStretches, InstantOrder, ReactionStretches, SpecialInstant,
     Stretches, VerdictRecorder, VerdictStretch, VerdictTrack,
 };
 pub use structure::structure;

@@ -12,7 +12,7 @@ use crate::limits::{SAME_PLACE, TOLD_LOADS, VISIBLE};
 use crate::words::{list, names, short, vector};
 
 /// Loads on some joints, in words.
-pub(crate) enum Told {
+pub(crate) enum LoadDescription {
     /// One load, or loads of one space, that all joints hand round.
     Common(String),
     /// The same of every joint, at its own place.
@@ -29,7 +29,7 @@ pub(crate) fn tell(
     size: f64,
     joints: &[ConstraintId],
     multipliers: &Matrix,
-) -> Option<Told> {
+) -> Option<LoadDescription> {
     let layout = mechanism.layout();
     let reactions = mechanism.reactions(s);
     let places: Vec<[f64; 3]> = joints.iter().map(|&id| reactions.place(id)).collect();
@@ -79,13 +79,13 @@ pub(crate) fn tell(
         }
     }
     match said.as_slice() {
-        [(words, _)] if sets.len() == 1 => Some(Told::Common(words.clone())),
-        [(words, _)] => Some(Told::Each(words.clone())),
+        [(words, _)] if sets.len() == 1 => Some(LoadDescription::Common(words.clone())),
+        [(words, _)] => Some(LoadDescription::Each(words.clone())),
         said if said.len() <= TOLD_LOADS => {
             let of = |(words, ids): &(String, Vec<ConstraintId>)| {
                 format!("{} {words}", list(&names(layout, ids)))
             };
-            Some(Told::Various(
+            Some(LoadDescription::Various(
                 said.iter().map(of).collect::<Vec<_>>().join(", "),
             ))
         }

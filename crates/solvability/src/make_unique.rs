@@ -13,7 +13,7 @@ use crate::matrices::Solvability;
 
 /// Rows that may be proposed for deletion.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Allowed {
+pub enum DeletableRows {
     /// Single rows, but never all rows of a joint with several rows; any rows if that is not
     /// enough.
     #[default]
@@ -60,21 +60,21 @@ pub fn make_unique(
     mechanism: &Mechanism,
     solvability: &Solvability,
     id: ConstraintId,
-    allowed: &Allowed,
+    allowed: &DeletableRows,
     limits: Limits,
 ) -> Result<Proposals, DeletionError> {
     let layout = mechanism.layout();
     let candidates: Vec<Vec<usize>> = match allowed {
-        Allowed::Sensible => (0..layout.rows()).map(|row| vec![row]).collect(),
-        Allowed::Whole => layout
+        DeletableRows::Sensible => (0..layout.rows()).map(|row| vec![row]).collect(),
+        DeletableRows::Whole => layout
             .groups
             .iter()
             .map(|g| g.rows.iter().collect())
             .collect(),
-        Allowed::Rows(rows) => rows.iter().map(|&row| vec![row]).collect(),
+        DeletableRows::Rows(rows) => rows.iter().map(|&row| vec![row]).collect(),
     };
     let admits = |rows: &[usize]| {
-        *allowed != Allowed::Sensible
+        *allowed != DeletableRows::Sensible
             || layout
                 .groups
                 .iter()
@@ -83,7 +83,7 @@ pub fn make_unique(
     let target = solvability.wrench_combinations(&layout.groups[id.0].rows);
     let decision = solvability.decision();
     let mut found = rank::making_unique(decision, &target, &candidates, admits, limits)?;
-    let whole = *allowed == Allowed::Sensible && found.sets.is_empty();
+    let whole = *allowed == DeletableRows::Sensible && found.sets.is_empty();
     if whole {
         found = rank::making_unique(decision, &target, &candidates, |_| true, limits)?;
     }

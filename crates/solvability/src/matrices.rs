@@ -21,8 +21,8 @@ mod mapped;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use basis::{Basis, Known};
-pub(crate) use mapped::Mapped;
+pub(crate) use basis::{Basis, RowAccuracy};
+pub(crate) use mapped::MultiplierMap;
 
 pub use error::QueryError;
 
@@ -85,7 +85,7 @@ impl Solvability {
         let basis = Basis {
             c: decision.scaling.apply(c),
             z: rank::orthonormal(&decision),
-            known: Known {
+            known: RowAccuracy {
                 status: decision.status,
                 row_factor: rows
                     .clone()

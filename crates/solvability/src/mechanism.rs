@@ -5,11 +5,11 @@ use linalg::Matrix;
 use model::{ConstraintId, Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
 
-use crate::certificate::Rows;
+use crate::certificate::UncertainRows;
 use crate::directions::readable;
 use crate::error::AnalysisError;
 use crate::freedoms::PartialRanks;
-use crate::judged::{ComponentVerdict, Dependency, Judged, ReactionVerdict, RowVerdict};
+use crate::judged::{ComponentVerdict, Dependency, PartResults, ReactionVerdict, RowVerdict};
 use crate::matrices::{Basis, QueryError, Solvability};
 use crate::parts::PartDecision;
 use crate::verdict::Verdict;
@@ -20,9 +20,9 @@ use crate::{explain, words};
 pub(crate) fn part_verdicts(
     mechanism: &Mechanism,
     s: &Scratch,
-    rows: &Rows,
+    rows: &UncertainRows,
     decision: RankDecision,
-) -> Result<Judged, AnalysisError> {
+) -> Result<PartResults, AnalysisError> {
     let mut found = reaction_verdicts(mechanism, s, rows, decision)?;
     if let Some(decision) = found.part.decision.dense() {
         let open = rank::open_rows(decision);
@@ -49,9 +49,9 @@ pub(crate) fn part_verdicts(
 fn reaction_verdicts(
     mechanism: &Mechanism,
     s: &Scratch,
-    rows: &Rows,
+    rows: &UncertainRows,
     decision: RankDecision,
-) -> Result<Judged, AnalysisError> {
+) -> Result<PartResults, AnalysisError> {
     let layout = mechanism.layout();
     let solvability = Solvability::from_decision(&rows.matrix(), decision);
     let (decision, basis) = (solvability.decision(), solvability.basis());
@@ -67,7 +67,7 @@ fn reaction_verdicts(
         reaction(mechanism, id, s, basis, &own)
     };
     let decision = PartDecision::Dense(Box::new(decision.clone()));
-    Judged::new(mechanism, s.t, rows.size(), decision, ranks, verdict)
+    PartResults::new(mechanism, s.t, rows.size(), decision, ranks, verdict)
 }
 
 /// The verdict on a joint or drive with these rows of the basis.

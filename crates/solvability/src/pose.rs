@@ -3,7 +3,7 @@
 
 use linalg::Matrix;
 use model::start::scene_size;
-use model::{Known, Mechanism, Scratch, System};
+use model::{ConfigurationAccuracy, Mechanism, Scratch, System};
 use rank::{KeptRowsError, RankDecision};
 
 use crate::error::AnalysisError;
@@ -18,10 +18,11 @@ pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Ma
 
 /// Uncertainty in `f64` of the entries of the [`dimensionless`] C.
 pub(crate) fn uncertainty(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
-    mechanism
-        .layout()
-        .dimension_scaling(size)
-        .apply(&mechanism.scales(s).uncertainty(size, Known::AsStored))
+    mechanism.layout().dimension_scaling(size).apply(
+        &mechanism
+            .scales(s)
+            .uncertainty(size, ConfigurationAccuracy::AsStored),
+    )
 }
 
 /// The velocities that correspond to 1 without dimensions: 1 m/s for translations. For rotations it

@@ -8,7 +8,7 @@ use crate::pose::{
     decide, decide_dropping, decide_holonomic, dimensionless, evaluated, uncertainty,
 };
 use model::start::scene_size;
-use model::{Known, Layout, Mechanism, Scratch, System};
+use model::{ConfigurationAccuracy, Layout, Mechanism, Scratch, System};
 use rank::{
     Doubt, Evidence, KeptRowsError, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankStatus,
 };
@@ -60,7 +60,7 @@ impl DecidedPart {
                 certified: None,
             });
         }
-        let rows = certificate::Rows::new(part, t, q, Known::AsStored)?;
+        let rows = certificate::UncertainRows::new(part, t, q, ConfigurationAccuracy::AsStored)?;
         let all = rows.decide()?;
         let holonomic = match layout.h {
             0 => all.clone(),

@@ -29,9 +29,9 @@ use crate::limits::KERNEL_MAX;
 use crate::state::{self, StateError};
 use forms::Forms;
 
-pub(crate) use restrictions::Accelerated;
-pub use restrictions::{Restricted, Restrictions, SecondOrder};
-pub use undetermined::Undetermined;
+pub(crate) use restrictions::AccelerationVerdict;
+pub use restrictions::{RestrictedVelocities, Restrictions, SecondOrder};
+pub use undetermined::SecondOrderDoubt;
 pub use zeros::{CommonZero, common_zero};
 
 /// How a motion continues at a configuration at which the rank drops.
@@ -49,7 +49,7 @@ pub enum Continuation {
         branches: Vec<Vec<f64>>,
     },
     /// Second order does not decide.
-    Undetermined(Undetermined),
+    Undetermined(SecondOrderDoubt),
 }
 
 impl std::fmt::Display for Continuation {
@@ -100,12 +100,14 @@ pub fn second_order(
     Ok(match forms {
         Err(reason) => Continuation::Undetermined(reason),
         Ok(forms) if is_unique(&forms, mechanism, q) => Continuation::Unique,
-        Ok(forms) if forms.y() > KERNEL_MAX => Continuation::Undetermined(Undetermined::Kernel {
-            found: forms.y(),
-            most: KERNEL_MAX,
-        }),
+        Ok(forms) if forms.y() > KERNEL_MAX => {
+            Continuation::Undetermined(SecondOrderDoubt::Kernel {
+                found: forms.y(),
+                most: KERNEL_MAX,
+            })
+        }
         Ok(forms) => match branches::others(&forms) {
-            found if found.is_empty() => Continuation::Undetermined(Undetermined::Open),
+            found if found.is_empty() => Continuation::Undetermined(SecondOrderDoubt::Open),
             found => Continuation::Bifurcation {
                 branches: found.iter().map(|a| forms.velocity(a)).collect(),
             },
@@ -147,7 +149,7 @@ pub fn restrictions(
     }
     Ok(match Forms::held(mechanism, t, q, decision) {
         Ok(forms) => Restrictions::of(&forms, mechanism, q),
-        Err(Undetermined::NoTerms) => Restrictions {
+        Err(SecondOrderDoubt::NoTerms) => Restrictions {
             unrestricted,
             ..Restrictions::default()
         },

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use linalg::{Matrix, SparseMatrix, equilibrate_sparse};
 use model::start::scene_size;
-use model::{Known, Mechanism, Scratch, System};
+use model::{ConfigurationAccuracy, Mechanism, Scratch, System};
 use rank::{Sketch, SparseRank, SparseRankError, decide_sparse};
 
 use crate::error::AnalysisError;
@@ -12,7 +12,7 @@ use crate::limits::SPARE_COMBINATIONS;
 use crate::matrices::{self, Basis};
 
 /// A sparse decision on rows of C, with these rows.
-pub(crate) struct Decided {
+pub(crate) struct SparseDecision {
     /// Without dimensions.
     c: SparseMatrix,
     pub(crate) found: SparseRank,
@@ -29,10 +29,10 @@ pub(crate) fn decide_some(
     q: &[f64],
     rows: impl Iterator<Item = usize> + Clone,
 ) -> Result<SparseRank, AnalysisError> {
-    Decided::of(mechanism, s, q, rows).map(|decided| decided.found)
+    SparseDecision::of(mechanism, s, q, rows).map(|decided| decided.found)
 }
 
-impl Decided {
+impl SparseDecision {
     pub(crate) fn of(
         mechanism: &Mechanism,
         s: &Scratch,
@@ -46,7 +46,7 @@ impl Decided {
         let scaling = equilibrate_sparse(&c);
         let known = mechanism
             .scales(s)
-            .uncertainty_of_entries(size, Known::AsStored);
+            .uncertainty_of_entries(size, ConfigurationAccuracy::AsStored);
         let pattern = &layout.pattern;
         let mut largest = 0.0_f64;
         for (own, i) in rows.clone().enumerate() {
@@ -96,10 +96,10 @@ impl Decided {
     }
 
     /// The accuracy of what is read of these rows, which have so many entries.
-    pub(crate) fn known(&self, own: &[usize], entries: usize) -> matrices::Known {
+    pub(crate) fn known(&self, own: &[usize], entries: usize) -> matrices::RowAccuracy {
         let (e, noise) = (&self.found.evidence, self.found.noise());
         let row_factor = own.iter().map(|&i| self.found.scaling.row_factor(i));
-        matrices::Known {
+        matrices::RowAccuracy {
             status: self.found.status,
             row_factor: row_factor.collect(),
             row_noise: vec![noise; own.len()],

@@ -24,7 +24,7 @@ use crate::value::Value;
 use crate::verdict::Verdict;
 
 pub use carried::{CarriedState, CarriedVerdicts};
-pub use recorder::{Looked, VerdictRecorder};
+pub use recorder::{InstantOrder, VerdictRecorder};
 
 /// The verdict on a number over an interval of time.
 #[derive(Clone, Debug, PartialEq)]

@@ -17,7 +17,7 @@ use rank::{RankDecision, RankError};
 
 pub use rewrite::{Dimension, Units};
 
-use crate::choices::{ChoiceError, Chosen, Equations, RowTerms, minimise};
+use crate::choices::{ChoiceError, ChosenValues, Equations, RowTerms, minimise};
 use crate::groups::{Configuration, LinearForm, RequestError, check_finite};
 use crate::matrices::Solvability;
 use rewrite::Rewriting;
@@ -130,7 +130,7 @@ pub(crate) fn check_equations(
     if configuration.solvability.decision().is_within_tolerance() {
         return Err(UnitError::WithinTolerance);
     }
-    let numbers = Numbers::of(configuration)?;
+    let numbers = ComparedNumbers::of(configuration)?;
     let mut checks = numbers.checks.clone();
     let decision = configuration.solvability.decision();
     if !configuration.reactions.mechanism.has_tolerances() {
@@ -192,7 +192,7 @@ struct Rewritten {
 
 impl Rewritten {
     /// One solution in these units; the given equations are in SI units.
-    fn multipliers(&self, equations: &Equations) -> Result<Chosen<f64>, ChoiceError> {
+    fn multipliers(&self, equations: &Equations) -> Result<ChosenValues<f64>, ChoiceError> {
         let equations = self.rewriting.equations(equations);
         let solution = equations.solution_of_kept(&self.solvability.decision().into())?;
         Ok(solution.multipliers)
@@ -200,7 +200,7 @@ impl Rewritten {
 }
 
 /// The numbers that are compared, and the wrenches whose norm is minimised.
-struct Numbers<'a> {
+struct ComparedNumbers<'a> {
     configuration: &'a Configuration<'a>,
     checks: Vec<UnitCheck>,
     /// The linear form of each check.
@@ -208,7 +208,7 @@ struct Numbers<'a> {
     wrenches: Vec<(ConstraintId, Dimension, LinearForm)>,
 }
 
-impl<'a> Numbers<'a> {
+impl<'a> ComparedNumbers<'a> {
     fn of(configuration: &'a Configuration<'a>) -> Result<Self, RequestError> {
         let (mut checks, mut forms, mut wrenches) = (Vec::new(), Vec::new(), Vec::new());
         let layout = configuration.layout();

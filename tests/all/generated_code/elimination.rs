@@ -4,7 +4,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
-use dynamics::{CodeSpec, Prepared, SceneCode};
+use dynamics::{CodeSpec, PreparedMechanism, SceneCode};
 use linalg::KeptRowSaddle;
 use model::{Mechanism, Scratch, System};
 
@@ -44,7 +44,7 @@ struct Work {
 }
 
 impl Elimination {
-    pub(super) fn new(p: &Prepared, fault: Fault) -> Arc<Self> {
+    pub(super) fn new(p: &PreparedMechanism, fault: Fault) -> Arc<Self> {
         let layout = p.mechanism.layout();
         let spec = CodeSpec {
             name: "elimination".into(),

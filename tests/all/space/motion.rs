@@ -3,7 +3,9 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{Method, MotionOptions, Prepared, RowChoice, Sample, Summary, prepare, simulate};
+use dynamics::{
+    Method, MotionOptions, PreparedMechanism, RowChoice, Sample, Summary, prepare, simulate,
+};
 use joints::space3::{Axes, Pose, Revolute, Spherical, SpringDamper};
 use lab::mechanisms::space::{RollingDisk, bricard, diagonal, top};
 use model::{
@@ -14,7 +16,7 @@ use model::{
 pub(super) fn run(
     d: &SpatialDescription,
     options: &MotionOptions,
-    mut row: impl FnMut(&Prepared, &mut Sample<'_, '_>),
+    mut row: impl FnMut(&PreparedMechanism, &mut Sample<'_, '_>),
 ) -> Summary {
     let mechanism = Mechanism::build(d).unwrap_or_else(|e| panic!("{}: {e:?}", d.name));
     let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)

@@ -8,7 +8,7 @@
 use std::error::Error;
 use std::time::Instant;
 
-use dynamics::Prepared;
+use dynamics::PreparedMechanism;
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::cholesky::factorize_symbolic_cholesky;
 use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
@@ -56,7 +56,7 @@ struct SaddleSystem {
 }
 
 impl SaddleSystem {
-    fn of(prepared: &Prepared) -> Result<Self, Box<dyn Error>> {
+    fn of(prepared: &PreparedMechanism) -> Result<Self, Box<dyn Error>> {
         let mechanism = &prepared.mechanism;
         let layout = mechanism.layout();
         let mut s = mechanism.scratch();

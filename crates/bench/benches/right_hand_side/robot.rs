@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{KeptRowMotion, MotionOptions, Prepared, simulate};
+use dynamics::{KeptRowMotion, MotionOptions, PreparedMechanism, simulate};
 use linalg::Matrix;
 use model::{Registry, System};
 use pfaff::{RunOptions, Study};
@@ -18,7 +18,7 @@ const STEP: f64 = 0.5;
 /// The robot and states of its motion.
 pub(crate) struct Robot {
     /// Start and kept rows.
-    pub(crate) prepared: Prepared,
+    pub(crate) prepared: PreparedMechanism,
     /// States that satisfy the constraints, over ten seconds.
     pub(crate) states: Vec<State>,
 }
@@ -82,7 +82,7 @@ impl Robot {
     }
 }
 
-fn c_and_gamma(prepared: &Prepared, t: f64, q: &[f64], v: &[f64]) -> Vec<f64> {
+fn c_and_gamma(prepared: &PreparedMechanism, t: f64, q: &[f64], v: &[f64]) -> Vec<f64> {
     let mechanism = &prepared.mechanism;
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);

@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dynamics::{MotionOptions, Prepared, Summary, simulate};
+use dynamics::{MotionOptions, PreparedMechanism, Summary, simulate};
 use robot_trolley::generated::automatic;
 use suite::{Kind, Quantity};
 
@@ -37,7 +37,7 @@ pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'static>>> {
 fn run(
     key: &'static str,
     name: &str,
-    prepared: Prepared,
+    prepared: PreparedMechanism,
     wanted: f64,
     known: &[f64],
 ) -> Outcome<Work<'static>> {
@@ -72,7 +72,7 @@ struct Found {
 
 /// The loosest tolerance from which all tighter ones achieve the required error. Tolerances are
 /// tried from the tight end, so that a loose one that achieves it by chance does not count.
-fn loosest(prepared: &Prepared, wanted: f64, known: &[f64]) -> Outcome<Found> {
+fn loosest(prepared: &PreparedMechanism, wanted: f64, known: &[f64]) -> Outcome<Found> {
     let mut best = None;
     for k in (PER_DECADE * DECADES[1]..=PER_DECADE * DECADES[0])
         .map(|k| f64::from(k) / f64::from(PER_DECADE))

@@ -1,6 +1,6 @@
 //! The equations of motion as one dense matrix, for general solvers.
 
-use dynamics::Prepared;
+use dynamics::PreparedMechanism;
 use model::{Mechanism, Scratch, System};
 
 /// `[M, C_Rᵀ; C_R, 0]·[a; λ] = [Q; Γ_R]` with some rows R, column-major.
@@ -14,16 +14,16 @@ pub(crate) struct Saddle<'p> {
 
 impl<'p> Saddle<'p> {
     /// With the kept rows: 41 × 41 and regular.
-    pub(crate) fn of_kept_rows(prepared: &'p Prepared) -> Self {
+    pub(crate) fn of_kept_rows(prepared: &'p PreparedMechanism) -> Self {
         Self::of_rows(prepared, prepared.decision.kept.clone())
     }
 
     /// With all rows: 43 × 43 of rank 41.
-    pub(crate) fn of_all_rows(prepared: &'p Prepared) -> Self {
+    pub(crate) fn of_all_rows(prepared: &'p PreparedMechanism) -> Self {
         Self::of_rows(prepared, (0..prepared.mechanism.layout().rows()).collect())
     }
 
-    fn of_rows(prepared: &'p Prepared, rows: Vec<usize>) -> Self {
+    fn of_rows(prepared: &'p PreparedMechanism, rows: Vec<usize>) -> Self {
         let mechanism = &prepared.mechanism;
         Self {
             s: mechanism.scratch(),

@@ -14,7 +14,7 @@ use crate::error::MotionFault;
 use crate::limits::{CODE_STATES, DISTANCE, LEAVE, SAME_VALUES, SPEED};
 use crate::motion::KeptRowMotion;
 use crate::options::{Method, MotionOptions, Stabilisation};
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 
 /// Reason why code does not belong to a mechanism.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -248,11 +248,11 @@ fn for_mechanism(
     })
 }
 
-impl Prepared {
+impl PreparedMechanism {
     /// Adds code generated for this mechanism, or for one that differs from it only in numbers that
     /// the code takes as inputs ([`SceneCode::inputs`]); runs then use it if they can. With inputs,
-    /// rows that nobody chose are those of the code ([`Prepared::on_rows`]): which of redundant
-    /// rows are kept may hang on any number.
+    /// rows that nobody chose are those of the code ([`PreparedMechanism::on_rows`]): which of
+    /// redundant rows are kept may hang on any number.
     ///
     /// # Errors
     /// [`CodeMismatch`], if the code belongs to another mechanism or to other rows.
@@ -266,11 +266,12 @@ impl Prepared {
         Self { code: None, ..self }
     }
 
-    /// Like [`Prepared::with_code`] for code that has passed that with a mechanism of the same
-    /// constraints ([`Mechanism::has_constraints_of`]): values are compared at the start alone.
+    /// Like [`PreparedMechanism::with_code`] for code that has passed that with a mechanism of
+    /// the same constraints ([`Mechanism::has_constraints_of`]): values are compared at the start
+    /// alone.
     ///
     /// # Errors
-    /// As [`Prepared::with_code`].
+    /// As [`PreparedMechanism::with_code`].
     pub fn with_known_code(self, code: Arc<SharedCode>) -> Result<Self, CodeMismatch> {
         self.with_code_compared(code, At::Start)
     }
@@ -319,7 +320,7 @@ impl Prepared {
     }
 }
 
-fn check_spec(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMismatch> {
+fn check_spec(prepared: &PreparedMechanism, code: &dyn SceneCode) -> Result<(), CodeMismatch> {
     let (spec, layout) = (code.spec(), prepared.mechanism.layout());
     let name = || spec.name.to_string();
     let sizes = [
@@ -406,7 +407,11 @@ fn times(mechanism: &Mechanism) -> Vec<f64> {
     ends.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect()
 }
 
-fn check_values(prepared: &Prepared, code: &dyn SceneCode, at: At) -> Result<(), CodeMismatch> {
+fn check_values(
+    prepared: &PreparedMechanism,
+    code: &dyn SceneCode,
+    at: At,
+) -> Result<(), CodeMismatch> {
     let mut motion = KeptRowMotion::new(prepared)?;
     let mut a = vec![0.0; prepared.v.len()];
     let health = code.acceleration(0.0, &prepared.q, &prepared.v, &mut a);

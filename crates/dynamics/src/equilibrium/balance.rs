@@ -9,7 +9,7 @@ use model::{Mechanism, Scratch, System};
 
 use super::error::EquilibriumError;
 use crate::limits::RESTING_RATE;
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 
 /// Statics of a mechanism at the time of its start.
 pub(super) struct Statics<'m> {
@@ -40,7 +40,7 @@ pub(super) struct Balance {
 }
 
 impl<'m> Statics<'m> {
-    pub(super) fn new(prepared: &'m Prepared) -> Self {
+    pub(super) fn new(prepared: &'m PreparedMechanism) -> Self {
         let mechanism = &prepared.mechanism;
         let size = prepared.assembly.size;
         Self {

@@ -7,7 +7,7 @@ use model::{CalledForce, StartError};
 /// What pushes a free motion.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Pushed {
+pub struct UnbalancedForce {
     /// The motion, in words.
     pub motion: String,
     /// Force or torque along it, for its fastest translation or rotation.
@@ -38,7 +38,7 @@ pub enum EquilibriumError {
     },
     /// A free motion is pushed, and nothing resists it.
     #[error("there is no rest: {}, wherever it goes; add what resists it, or hold it", push(.0))]
-    Pushed(Vec<Pushed>),
+    Pushed(Vec<UnbalancedForce>),
     /// The search did not end.
     #[error(
         "no place of rest was found in {steps} steps: {}, a share of {left:.1e} of the largest force; \
@@ -51,7 +51,7 @@ pub enum EquilibriumError {
         /// What is left, as a share of the largest force.
         left: f64,
         /// What is pushed there.
-        pushed: Vec<Pushed>,
+        pushed: Vec<UnbalancedForce>,
     },
     /// The search came to a configuration from which no step can be assembled.
     #[error(
@@ -63,7 +63,7 @@ pub enum EquilibriumError {
         /// Number of steps.
         steps: usize,
         /// What is pushed there.
-        pushed: Vec<Pushed>,
+        pushed: Vec<UnbalancedForce>,
     },
     /// At the place that was found no start can be assembled, although the search reached it on
     /// the constraints.
@@ -96,7 +96,7 @@ pub enum EquilibriumError {
     Start(#[from] StartError),
 }
 
-pub(super) fn push(pushed: &[Pushed]) -> String {
+pub(super) fn push(pushed: &[UnbalancedForce]) -> String {
     let each = pushed.iter().map(|pushed| {
         let by = match pushed.by.as_slice() {
             [] => String::new(),

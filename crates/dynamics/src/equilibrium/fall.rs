@@ -10,7 +10,7 @@ use linalg::kernels::norm;
 use model::words::listed;
 use model::{BodyRef, Mechanism, System};
 
-use super::Pushed;
+use super::UnbalancedForce;
 use super::balance::Statics;
 use super::words::{of_bodies, parts};
 use crate::limits::{DEAD_LOAD, UNRESISTED_FORCE};
@@ -23,7 +23,7 @@ const ELSEWHERE: [[f64; 6]; 2] = [
 ];
 
 /// What falls, wherever it is, set by set.
-pub(super) fn falls(statics: &mut Statics<'_>, q: &[f64]) -> Vec<Pushed> {
+pub(super) fn falls(statics: &mut Statics<'_>, q: &[f64]) -> Vec<UnbalancedForce> {
     let n = statics.bodies();
     let mechanism = statics.mechanism;
     let mut sets = DisjointSets::new(n);

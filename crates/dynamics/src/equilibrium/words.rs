@@ -2,7 +2,7 @@
 
 use solvability::motions_among;
 
-use super::Pushed;
+use super::UnbalancedForce;
 use super::balance::{Balance, Statics};
 use crate::limits::{MOSTLY_TURNS, TAKES_PART, UNRESISTED};
 
@@ -15,7 +15,11 @@ pub(super) fn motions(statics: &Statics<'_>, at: &Balance, of: &[Vec<f64>]) -> V
 }
 
 /// What pushes along a free motion, for each set of bodies that move.
-pub(super) fn pushed(statics: &mut Statics<'_>, at: &Balance, along: &[f64]) -> Vec<Pushed> {
+pub(super) fn pushed(
+    statics: &mut Statics<'_>,
+    at: &Balance,
+    along: &[f64],
+) -> Vec<UnbalancedForce> {
     let v = statics.velocity(at, along);
     let told = motions_among(
         statics.mechanism,
@@ -25,7 +29,7 @@ pub(super) fn pushed(statics: &mut Statics<'_>, at: &Balance, along: &[f64]) -> 
     );
     let told = told.unwrap_or_default();
     let forces = parts(statics, &at.q);
-    let all: Vec<Pushed> = told
+    let all: Vec<UnbalancedForce> = told
         .iter()
         .map(|motion| {
             let bodies: Vec<usize> = motion
@@ -42,7 +46,7 @@ pub(super) fn pushed(statics: &mut Statics<'_>, at: &Balance, along: &[f64]) -> 
         return vec![of_bodies(statics, &forces, &v, ("a free motion", &bodies))];
     }
     let largest = all.iter().fold(0.0, |a: f64, p| a.max(p.force.abs()));
-    let takes_part = |p: &Pushed| p.force.abs() > UNRESISTED * largest;
+    let takes_part = |p: &UnbalancedForce| p.force.abs() > UNRESISTED * largest;
     all.into_iter().filter(takes_part).collect()
 }
 
@@ -61,7 +65,7 @@ pub(super) fn of_bodies(
     forces: &[(String, Vec<f64>)],
     v: &[f64],
     (motion, bodies): (&str, &[usize]),
-) -> Pushed {
+) -> UnbalancedForce {
     let space = statics.mechanism.space();
     let own = |j: &usize| bodies.contains(&space.body_of(*j));
     let columns: Vec<usize> = (0..v.len()).filter(own).collect();
@@ -88,7 +92,7 @@ pub(super) fn of_bodies(
         .into_iter()
         .filter(|(_, power)| power.abs() > TAKES_PART * force.abs())
         .map(|(name, _)| name.clone());
-    Pushed {
+    UnbalancedForce {
         motion: motion.to_owned(),
         force,
         unit,

@@ -2,7 +2,7 @@
 
 use linalg::{DampedRows, Matrix};
 
-use super::chosen::Chosen;
+use super::chosen::CoordinateChoice;
 use super::coordinate::Coordinate;
 use super::curve::Curves;
 use super::error::LineariseError;
@@ -20,7 +20,10 @@ pub(crate) struct Bases {
 }
 
 impl Bases {
-    pub(crate) fn new(curves: &Curves<'_>, chosen: &Chosen) -> Result<Self, LineariseError> {
+    pub(crate) fn new(
+        curves: &Curves<'_>,
+        chosen: &CoordinateChoice,
+    ) -> Result<Self, LineariseError> {
         let weights = curves.squared_units();
         let square = |kept: &[usize], free: &[Coordinate]| {
             let c = curves.rows(kept);

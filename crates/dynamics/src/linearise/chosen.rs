@@ -6,22 +6,22 @@ use model::words::listed;
 use super::coordinate::{BODY, Coordinate, coordinate, frame_row, named};
 use super::curve::{Curves, Derivative};
 use super::error::LineariseError;
-use super::followed::Followed;
+use super::followed::FollowedCoordinates;
 use crate::limits::{CHOSEN_PIVOT, DEPENDENT_COORDINATE};
 
 /// The independent coordinates of a linearisation.
-pub(crate) struct Chosen {
+pub(crate) struct CoordinateChoice {
     pub(crate) positions: Vec<Coordinate>,
     pub(crate) velocities: Vec<Coordinate>,
 }
 
-impl Chosen {
+impl CoordinateChoice {
     /// Chooses velocities first, then positions, of which the velocities are rates: those that are
     /// followed and asked for, then turns before places, the first whose share of what is still
     /// free is large.
     pub(crate) fn new(
         curves: &Curves<'_>,
-        followed: &Followed,
+        followed: &FollowedCoordinates,
         asked: &[String],
     ) -> Result<Self, LineariseError> {
         let mechanism = curves.mechanism();
@@ -36,8 +36,8 @@ impl Chosen {
             }
         }
         let [of_phi, of_c] = curves.kept();
-        let velocities = Free::new(curves, of_c).choose(&wanted, &[], false)?;
-        let positions = Free::new(curves, of_phi).choose(&wanted, &velocities, true)?;
+        let velocities = FreeMotions::new(curves, of_c).choose(&wanted, &[], false)?;
+        let positions = FreeMotions::new(curves, of_phi).choose(&wanted, &velocities, true)?;
         let all = |rows: Vec<usize>, is_velocity| {
             let of = |row: usize| coordinate(mechanism, row / BODY, row % BODY, is_velocity);
             rows.into_iter().map(of).collect()
@@ -84,7 +84,7 @@ impl Chosen {
 }
 
 /// Motions of all frames that rows leave free.
-struct Free<'c, 'm> {
+struct FreeMotions<'c, 'm> {
     curves: &'c Curves<'m>,
     /// Their frames, without dimensions: a row for each direction, a column for each free motion.
     rows: Matrix,
@@ -92,7 +92,7 @@ struct Free<'c, 'm> {
     taken: Vec<Vec<f64>>,
 }
 
-impl<'c, 'm> Free<'c, 'm> {
+impl<'c, 'm> FreeMotions<'c, 'm> {
     fn new(curves: &'c Curves<'m>, kept: &[usize]) -> Self {
         let squared = curves.squared_units();
         let mut rows = curves.rows(kept);

@@ -12,7 +12,7 @@ use crate::limits::{
     LINEARISE_ACCURACY, LINEARISE_SHORTER, LINEARISE_STEP, STEADY_ACCELERATION, STEADY_FRACTION,
 };
 use crate::motion::KeptRowMotion;
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 
 /// Weights of the even part of a function, `(f(h) + f(−h))/2 − f(0)`, at the same distances: its
 /// terms of second, fourth and sixth order cancel, and `|x|` has the derivative 1. A corner is
@@ -31,7 +31,7 @@ pub(crate) struct Derivative {
 /// A motion at one state, and curves through it.
 pub(crate) struct Curves<'m> {
     motion: KeptRowMotion<'m>,
-    prepared: &'m Prepared,
+    prepared: &'m PreparedMechanism,
     t: f64,
     q: Vec<f64>,
     v: Vec<f64>,
@@ -55,7 +55,7 @@ pub(crate) struct Curves<'m> {
 impl<'m> Curves<'m> {
     pub(crate) fn new(
         mut motion: KeptRowMotion<'m>,
-        prepared: &'m Prepared,
+        prepared: &'m PreparedMechanism,
         (t, q, v): (f64, &[f64], &[f64]),
     ) -> Result<Self, LineariseError> {
         let mechanism = motion.mechanism();
@@ -121,7 +121,7 @@ impl<'m> Curves<'m> {
 
     /// Kept rows of Φ and of C.
     pub(crate) fn kept(&self) -> [&'m [usize]; 2] {
-        let Prepared {
+        let PreparedMechanism {
             position_decision,
             decision,
             ..

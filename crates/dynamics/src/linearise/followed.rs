@@ -6,13 +6,13 @@ use super::coordinate::{Coordinate, named};
 use super::error::LineariseError;
 
 /// The coordinates that are followed, and how fast axes turn with them.
-pub(crate) struct Followed {
+pub(crate) struct FollowedCoordinates {
     pub(crate) coordinates: Vec<Coordinate>,
     /// Angular velocity of the axes (rad/s).
     pub(crate) turning: [f64; 3],
 }
 
-impl Followed {
+impl FollowedCoordinates {
     pub(crate) fn of(
         mechanism: &Mechanism,
         (q, v): (&[f64], &[f64]),

@@ -3,19 +3,19 @@
 use linalg::Matrix;
 use model::space::cross;
 
-use super::chosen::Chosen;
+use super::chosen::CoordinateChoice;
 use super::coordinate::{BODY, Coordinate};
 use super::curve::Curves;
 use super::error::LineariseError;
-use super::followed::Followed;
+use super::followed::FollowedCoordinates;
 use super::linearisation::Linearisation;
 use crate::limits::SYMMETRY;
 
 /// Leaves the followed coordinates out, after a check that nothing depends on them.
 pub(crate) fn reduce(
-    followed: &Followed,
+    followed: &FollowedCoordinates,
     whole: Linearisation,
-    chosen: &Chosen,
+    chosen: &CoordinateChoice,
     curves: &Curves<'_>,
 ) -> Result<Linearisation, LineariseError> {
     let (n, d) = (chosen.len(), chosen.positions.len());
@@ -72,7 +72,7 @@ pub(crate) fn reduce(
 
 /// The states that change if the whole mechanism moves along a coordinate by one, or turns
 /// about its axis.
-fn symmetry(c: &Coordinate, chosen: &Chosen, curves: &Curves<'_>) -> Vec<f64> {
+fn symmetry(c: &Coordinate, chosen: &CoordinateChoice, curves: &Curves<'_>) -> Vec<f64> {
     let (_, q, v) = curves.state();
     let frames = curves.mechanism().frames();
     let axis: [f64; 3] = std::array::from_fn(|k| f64::from(u8::from(k == c.direction % 3)));

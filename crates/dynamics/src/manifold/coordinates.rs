@@ -11,8 +11,8 @@
 use model::{Mechanism, System};
 
 use super::dropped::check_positions;
-use super::held::Held;
-use super::levels::{Moves, Storage, correct_position};
+use super::held::IndependentRotations;
+use super::levels::{Moves, ProjectionStorage, correct_position};
 use crate::error::MotionFault;
 use crate::limits::{FAR_AT_REST, FAR_COMPLETION, FAR_EXTRAPOLATED, FAR_IN_A_STEP};
 use crate::solve::{Evaluation, KeptEquations};
@@ -34,7 +34,7 @@ pub(crate) struct IndependentCoordinates {
     renewal: Option<Origin>,
     /// Scratch: a configuration before it was completed, n_q, and a correction, n_v.
     guess: Vec<f64>,
-    storage: Storage,
+    storage: ProjectionStorage,
 }
 
 /// Which coordinates and velocities are independent.
@@ -75,8 +75,8 @@ impl IndependentCoordinates {
         if let Some(requested) = &mut equations.requested_rows {
             requested.forget_partition();
         }
-        let mut storage = Storage::new(origin.v.len());
-        storage.held = Held::among(mechanism, &z, &origin.q);
+        let mut storage = ProjectionStorage::new(origin.v.len());
+        storage.held = IndependentRotations::among(mechanism, &z, &origin.q);
         Ok(Self {
             is_fresh: false,
             base: origin.q.clone(),

@@ -4,7 +4,7 @@
 use model::{ConstraintLevel, Level, System};
 
 use super::levels::largest;
-use crate::counts::{Counted, note};
+use crate::counts::{WorkKind, note};
 use crate::error::MotionFault;
 use crate::guards::GUARDED;
 use crate::limits::{AT_REST, DROPPED_MISFIT, NEAREST_PIVOT, POSITION_MISFIT, STALLED_ROUNDINGS};
@@ -173,7 +173,7 @@ where
             _ => 0.0,
         };
         for k in 0..rows.dropped.len() {
-            note(Counted::Monitors);
+            note(WorkKind::Monitors);
             let i = rows.dropped[k];
             let value = (self.residual)(i);
             let residual = value.abs();

@@ -104,7 +104,7 @@ impl CodeProjection {
     ) -> Result<Correction, Doubt> {
         model::Scales::of_coordinates(mechanism, q, &mut self.coordinates);
         self.bounds.sizes(&self.coordinates, &mut self.sizes);
-        let mut positions = Positions {
+        let mut positions = CodePositions {
             all: self,
             code,
             mechanism,
@@ -115,7 +115,7 @@ impl CodeProjection {
         let (m, q) = (self.phi.len(), &*q);
         reached(end.is_reached, end.worst, &self.phi)?;
         check_dropped(&self.phi, &self.keeps_position, &self.sizes[..m])?;
-        let mut velocities = Velocities {
+        let mut velocities = CodeVelocities {
             all: self,
             code,
             t,
@@ -157,7 +157,7 @@ fn reached(is_reached: bool, row: usize, misses: &[f64]) -> Result<(), Doubt> {
     }
 }
 
-struct Positions<'a> {
+struct CodePositions<'a> {
     all: &'a mut CodeProjection,
     code: &'a dyn SceneCode,
     mechanism: &'a Mechanism,
@@ -165,7 +165,7 @@ struct Positions<'a> {
     q: &'a mut [f64],
 }
 
-impl Level for Positions<'_> {
+impl Level for CodePositions<'_> {
     type Fault = Doubt;
 
     fn misses(&mut self, corrections: usize) -> (usize, f64) {
@@ -183,7 +183,7 @@ impl Level for Positions<'_> {
     }
 }
 
-struct Velocities<'a> {
+struct CodeVelocities<'a> {
     all: &'a mut CodeProjection,
     code: &'a dyn SceneCode,
     t: f64,
@@ -191,7 +191,7 @@ struct Velocities<'a> {
     v: &'a mut [f64],
 }
 
-impl Level for Velocities<'_> {
+impl Level for CodeVelocities<'_> {
     type Fault = Doubt;
 
     fn misses(&mut self, corrections: usize) -> (usize, f64) {

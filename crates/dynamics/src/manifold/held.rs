@@ -32,7 +32,7 @@ struct Twist {
 
 /// Such rotations, and what a completion keeps of them.
 #[derive(Default)]
-pub(super) struct Held {
+pub(super) struct IndependentRotations {
     /// Their columns of C.
     columns: Vec<usize>,
     /// How each is read.
@@ -50,7 +50,7 @@ pub(super) struct Held {
     rate: Vec<f64>,
 }
 
-impl Held {
+impl IndependentRotations {
     /// Those among independent columns.
     pub(super) fn among(mechanism: &Mechanism, independent: &[usize], q: &[f64]) -> Self {
         let space = mechanism.space();

@@ -3,7 +3,7 @@
 
 use model::System;
 
-use super::held::Held;
+use super::held::IndependentRotations;
 use super::newton::{Level, Limits, correct};
 use crate::error::MotionFault;
 use crate::limits::{
@@ -25,27 +25,27 @@ struct Positions<'a, 'm> {
     equations: &'a mut KeptEquations<'m>,
     t: f64,
     q: &'a mut [f64],
-    storage: &'a mut Storage,
+    storage: &'a mut ProjectionStorage,
     moves: Moves,
 }
 
 /// Vectors of a projection.
-pub(super) struct Storage {
+pub(super) struct ProjectionStorage {
     /// A correction, n_v.
     pub(super) delta: Vec<f64>,
     /// Sizes of the terms of the kept rows of Φ at the first configuration: corrections change them
     /// only slightly.
     scales: Vec<f64>,
     /// What a completion keeps of bodies that have dependent rotations, too.
-    pub(super) held: Held,
+    pub(super) held: IndependentRotations,
 }
 
-impl Storage {
+impl ProjectionStorage {
     pub(super) fn new(n_v: usize) -> Self {
         Self {
             delta: vec![0.0; n_v],
             scales: Vec::with_capacity(n_v),
-            held: Held::default(),
+            held: IndependentRotations::default(),
         }
     }
 }
@@ -85,7 +85,7 @@ impl Level for Positions<'_, '_> {
 
     fn correct(&mut self, converges: bool) -> Result<(), MotionFault> {
         let KeptEquations { at, position, .. } = &mut *self.equations;
-        let Storage { delta, held, .. } = &mut *self.storage;
+        let ProjectionStorage { delta, held, .. } = &mut *self.storage;
         match self.moves {
             Moves::AllCoordinates => {
                 position.factor(at)?;
@@ -112,7 +112,7 @@ impl Level for Positions<'_, '_> {
 pub(super) fn correct_position(
     equations: &mut KeptEquations<'_>,
     (t, q): (f64, &mut [f64]),
-    storage: &mut Storage,
+    storage: &mut ProjectionStorage,
     moves: Moves,
 ) -> Result<usize, MotionFault> {
     let enough = match moves {
@@ -196,7 +196,7 @@ impl Level for Velocities<'_, '_> {
 pub(super) fn correct_velocity(
     equations: &mut KeptEquations<'_>,
     v: &mut [f64],
-    storage: &mut Storage,
+    storage: &mut ProjectionStorage,
 ) -> Result<f64, MotionFault> {
     equations.at.b();
     let limits = Limits {

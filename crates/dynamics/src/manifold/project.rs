@@ -5,7 +5,7 @@ use model::System;
 
 use super::coordinates::{IndependentCoordinates, Origin};
 use super::dropped::{Correction, monitor};
-use super::levels::{Moves, Storage, correct_position, correct_velocity, largest};
+use super::levels::{Moves, ProjectionStorage, correct_position, correct_velocity, largest};
 use crate::error::MotionFault;
 use crate::options::Stabilisation;
 use crate::solve::{Evaluation, KeptEquations};
@@ -18,7 +18,7 @@ pub(crate) struct Manifold {
     /// Duration of the run (s). Infinite if it is not given or zero; then no difference of
     /// velocities is allowed.
     horizon: f64,
-    storage: Storage,
+    storage: ProjectionStorage,
 }
 
 impl Manifold {
@@ -27,7 +27,7 @@ impl Manifold {
             coordinates: None,
             stabilisation,
             horizon,
-            storage: Storage::new(at.mechanism.mass().len()),
+            storage: ProjectionStorage::new(at.mechanism.mass().len()),
         }
     }
 

@@ -8,7 +8,7 @@ use super::sizes::Sizes;
 use crate::error::MotionError;
 use crate::limits::NAMED;
 use crate::options::MotionOptions;
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 
 /// The computations for one component, and those that are omitted.
 pub struct ComponentPlan<'a> {
@@ -24,15 +24,15 @@ pub struct ComponentPlan<'a> {
 /// A prepared mechanism.
 enum Whose<'a> {
     /// The whole mechanism.
-    Whole(&'a Prepared),
+    Whole(&'a PreparedMechanism),
     /// A part, and its places in the whole.
-    Part(Box<(Prepared, Places)>),
+    Part(Box<(PreparedMechanism, Places)>),
 }
 
 impl<'a> ComponentPlan<'a> {
     /// The whole mechanism as one component, with the reactions of the requested groups.
     pub(super) fn whole(
-        prepared: &'a Prepared,
+        prepared: &'a PreparedMechanism,
         options: &MotionOptions,
         wanted: &[bool],
     ) -> Result<Self, MotionError> {
@@ -42,7 +42,7 @@ impl<'a> ComponentPlan<'a> {
 
     /// A part; `wanted` covers the groups of the whole mechanism.
     pub(super) fn part(
-        (prepared, places): (Prepared, Places),
+        (prepared, places): (PreparedMechanism, Places),
         options: &MotionOptions,
         wanted: &[bool],
     ) -> Result<Self, MotionError> {
@@ -71,7 +71,7 @@ impl<'a> ComponentPlan<'a> {
 
     /// The mechanism with its start.
     #[must_use]
-    pub fn prepared(&self) -> &Prepared {
+    pub fn prepared(&self) -> &PreparedMechanism {
         self.whose.prepared()
     }
 
@@ -103,7 +103,7 @@ impl<'a> ComponentPlan<'a> {
 }
 
 impl Whose<'_> {
-    fn prepared(&self) -> &Prepared {
+    fn prepared(&self) -> &PreparedMechanism {
         match self {
             Whose::Whole(prepared) => prepared,
             Whose::Part(part) => &part.0,

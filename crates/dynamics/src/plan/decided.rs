@@ -4,7 +4,7 @@ use super::saving::{Cost, Saving};
 
 /// A decision.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Decided<T> {
+pub struct Decision<T> {
     /// The value that was chosen.
     pub value: T,
     /// The same in a few words.
@@ -30,7 +30,7 @@ pub struct Line<'p> {
     pub saves: Option<Saving>,
 }
 
-impl<T> Decided<T> {
+impl<T> Decision<T> {
     pub(crate) fn new(value: T, taken: impl Into<String>, reason: impl Into<String>) -> Self {
         let (taken, reason) = (taken.into(), reason.into());
         Self {

@@ -4,7 +4,7 @@
 use linalg::GRADED_MASSES;
 use model::{System, Work};
 
-use super::decided::{Decided, Line};
+use super::decided::{Decision, Line};
 use super::saving::Cost;
 use super::sizes::Sizes;
 use super::split::elimination;
@@ -12,44 +12,44 @@ use crate::choose;
 use crate::error::MotionError;
 use crate::motion::KeptRowMotion;
 use crate::options::{FORMULATION, Method, MotionOptions};
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 
 /// The decisions about one component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decisions {
     /// Its integrator.
-    pub method: Decided<Method>,
+    pub method: Decision<Method>,
     /// Whether the integrator needs storage for linear systems; the first step that uses it
     /// allocates it.
-    pub linear_systems: Decided<bool>,
+    pub linear_systems: Decision<bool>,
     /// Rows and columns of the matrix that is eliminated densely.
-    pub elimination: Decided<[usize; 2]>,
+    pub elimination: Decision<[usize; 2]>,
     /// Whether solutions are refined from the start on.
-    pub refinement: Decided<bool>,
+    pub refinement: Decision<bool>,
     /// Degrees of freedom; if there are none, the motion is a function of time.
-    pub mobility: Decided<usize>,
+    pub mobility: Decision<usize>,
     /// Rows that exist at velocity level only.
-    pub nonholonomic: Decided<usize>,
+    pub nonholonomic: Decision<usize>,
     /// Dropped rows: monitored, and exchanged for kept ones if these become nearly dependent.
-    pub dropped: Decided<usize>,
+    pub dropped: Decision<usize>,
     /// Rows whose b and Φt are evaluated.
-    pub of_time: Decided<usize>,
+    pub of_time: Decision<usize>,
     /// Entries of C that are evaluated.
-    pub entries: Decided<usize>,
+    pub entries: Decision<usize>,
     /// Rows whose Γ is evaluated.
-    pub gamma: Decided<usize>,
+    pub gamma: Decision<usize>,
     /// Bodies whose angle changes, so that sine and cosine are evaluated.
-    pub turning: Decided<usize>,
+    pub turning: Decision<usize>,
     /// Applied forces.
-    pub forces: Decided<usize>,
+    pub forces: Decision<usize>,
     /// Joints and drives whose reactions are computed at rows of output, among those of the
     /// component.
-    pub reactions: Decided<Vec<usize>>,
+    pub reactions: Decision<Vec<usize>>,
 }
 
 impl Decisions {
     pub(super) fn new(
-        prepared: &Prepared,
+        prepared: &PreparedMechanism,
         options: &MotionOptions,
         reactions: Vec<usize>,
     ) -> Result<Self, MotionError> {
@@ -94,7 +94,7 @@ impl Decisions {
     }
 }
 
-fn linear_systems(method: Method, sizes: &Sizes) -> Decided<bool> {
+fn linear_systems(method: Method, sizes: &Sizes) -> Decision<bool> {
     let (n, w) = (sizes.velocities, 2 * sizes.mobility());
     // Derivatives of [q; v] along each independent entry; the real system, and the complex one as a
     // real one of twice the order.
@@ -104,16 +104,20 @@ fn linear_systems(method: Method, sizes: &Sizes) -> Decided<bool> {
         _ => (false, "none", "is explicit", reduced),
     };
     let reason = format!("{} {why}", method.name());
-    Decided::new(value, taken, reason).saving(left_out, reduced, Cost::Storage)
+    Decision::new(value, taken, reason).saving(left_out, reduced, Cost::Storage)
 }
 
-fn elimination_of(prepared: &Prepared, sizes: &Sizes, work: &Work) -> Decided<[usize; 2]> {
+fn elimination_of(
+    prepared: &PreparedMechanism,
+    sizes: &Sizes,
+    work: &Work,
+) -> Decision<[usize; 2]> {
     let (rows, n, entries) = (sizes.rank, sizes.velocities, work.entries);
     if prepared.is_schur() {
         let reason = format!(
             "{FORMULATION}, {entries} entries of C; many motions are free, and the order of elimination is chosen once"
         );
-        return Decided::new([rows, n], format!("Schur complement, {rows} × {n}"), reason);
+        return Decision::new([rows, n], format!("Schur complement, {rows} × {n}"), reason);
     }
     let all = elimination(&prepared.mechanism, rows);
     // Cost of eliminating the whole saddle matrix by LU.
@@ -122,17 +126,17 @@ fn elimination_of(prepared: &Prepared, sizes: &Sizes, work: &Work) -> Decided<[u
     let reason = format!(
         "{FORMULATION}, {entries} entries of C; saved against LU of the whole saddle matrix"
     );
-    Decided::new([rows, n], format!("null space, {rows} × {n}"), reason).saving(
+    Decision::new([rows, n], format!("null space, {rows} × {n}"), reason).saving(
         whole.saturating_sub(all),
         whole,
         Cost::Elimination,
     )
 }
 
-fn refinement(prepared: &Prepared) -> Result<Decided<bool>, MotionError> {
+fn refinement(prepared: &PreparedMechanism) -> Result<Decision<bool>, MotionError> {
     let decided = |value: bool, reason: String| {
         let taken = if value { "in double-double" } else { "none" };
-        Ok(Decided::new(value, taken, reason))
+        Ok(Decision::new(value, taken, reason))
     };
     if prepared.is_schur() {
         let why =
@@ -162,11 +166,11 @@ fn refinement(prepared: &Prepared) -> Result<Decided<bool>, MotionError> {
 }
 
 fn mobility(
-    prepared: &Prepared,
+    prepared: &PreparedMechanism,
     options: &MotionOptions,
     sizes: &Sizes,
     work: &Work,
-) -> Decided<usize> {
+) -> Decision<usize> {
     let value = sizes.mobility();
     let by_time = prepared.code_for(options).is_err() && prepared.is_function_of_time(options);
     let function = || "a function of time".to_owned();
@@ -182,18 +186,18 @@ fn mobility(
         ),
         (n, _) => (format!("{n}"), "velocities less independent rows"),
     };
-    Decided::new(value, taken, reason)
+    Decision::new(value, taken, reason)
 }
 
 /// A decision about a number that may be zero, with a reason for either case.
-fn counted(value: usize, [none, some]: [&str; 2], what: &str) -> Decided<usize> {
+fn counted(value: usize, [none, some]: [&str; 2], what: &str) -> Decision<usize> {
     match value {
-        0 => Decided::new(0, "none", none),
-        n => Decided::new(n, format!("{n}{what}"), some),
+        0 => Decision::new(0, "none", none),
+        n => Decision::new(n, format!("{n}{what}"), some),
     }
 }
 
-fn nonholonomic(sizes: &Sizes) -> Decided<usize> {
+fn nonholonomic(sizes: &Sizes) -> Decision<usize> {
     let reasons = [
         "every row has a position level: no projection of velocities alone",
         "rows without position level: projected on velocity level",
@@ -201,7 +205,7 @@ fn nonholonomic(sizes: &Sizes) -> Decided<usize> {
     counted(sizes.nonholonomic, reasons, "")
 }
 
-fn dropped(sizes: &Sizes) -> Decided<usize> {
+fn dropped(sizes: &Sizes) -> Decision<usize> {
     let reasons = [
         "all rows are independent: no row is monitored or exchanged",
         "implied by the kept ones; not solved for",
@@ -214,7 +218,7 @@ fn dropped(sizes: &Sizes) -> Decided<usize> {
     }
 }
 
-fn of_time(sizes: &Sizes, work: &Work) -> Decided<usize> {
+fn of_time(sizes: &Sizes, work: &Work) -> Decision<usize> {
     let (value, all) = (work.rows_of_time, sizes.rows() as u64);
     let none = || "b = 0".to_owned();
     let (taken, reason) = match (value, work.functions) {
@@ -228,7 +232,7 @@ fn of_time(sizes: &Sizes, work: &Work) -> Decided<usize> {
             format!("driven; functions, evaluated once at each time: {n}"),
         ),
     };
-    Decided::new(value, taken, reason).saving(all - value as u64, all, Cost::TimeRows)
+    Decision::new(value, taken, reason).saving(all - value as u64, all, Cost::TimeRows)
 }
 
 /// A decision on how many of all items are evaluated, with a reason why all are, or why the others
@@ -238,28 +242,28 @@ fn evaluated(
     why_all: &str,
     others: &str,
     cost: Cost,
-) -> Decided<usize> {
+) -> Decision<usize> {
     let (left_out, all) = ((all - value) as u64, all as u64);
     let reason = match left_out {
         0 => why_all.to_owned(),
         n => format!("{n} {others}"),
     };
-    Decided::new(value, format!("{value} evaluated"), reason).saving(left_out, all, cost)
+    Decision::new(value, format!("{value} evaluated"), reason).saving(left_out, all, cost)
 }
 
-fn entries(work: &Work) -> Decided<usize> {
+fn entries(work: &Work) -> Decision<usize> {
     let counts = (work.varying_entries, work.entries);
     let all = "all depend on the configuration";
     evaluated(counts, all, "are constant", Cost::Entries)
 }
 
-fn gamma(sizes: &Sizes, work: &Work) -> Decided<usize> {
+fn gamma(sizes: &Sizes, work: &Work) -> Decision<usize> {
     let counts = (work.rows_of_gamma, sizes.rows());
     let others = "belong to joints with constant C: Γ = 0";
     evaluated(counts, "no joint has constant C", others, Cost::Gamma)
 }
 
-fn turning(prepared: &Prepared, work: &Work) -> Decided<usize> {
+fn turning(prepared: &PreparedMechanism, work: &Work) -> Decision<usize> {
     let bodies = prepared.mechanism.bodies();
     let held = &work.without_turning;
     let names: Vec<&str> = held.iter().map(|&k| bodies[k].name.as_str()).collect();
@@ -269,10 +273,10 @@ fn turning(prepared: &Prepared, work: &Work) -> Decided<usize> {
         _ => format!("rows of angles hold {}", names.join(", ")),
     };
     let taken = format!("{} of {all}", all - n);
-    Decided::new(all - n, taken, reason).saving(n as u64, all as u64, Cost::Trigonometry)
+    Decision::new(all - n, taken, reason).saving(n as u64, all as u64, Cost::Trigonometry)
 }
 
-fn forces(prepared: &Prepared, work: &Work) -> Decided<usize> {
+fn forces(prepared: &PreparedMechanism, work: &Work) -> Decision<usize> {
     let weight = prepared.mechanism.weight().iter().any(|w| *w != 0.0);
     let (taken, reason) = match (work.forces, weight) {
         (0, false) => ("Q = 0".to_owned(), "no forces, no gravity"),
@@ -283,10 +287,10 @@ fn forces(prepared: &Prepared, work: &Work) -> Decided<usize> {
         (n, false) => (format!("{n}"), "no gravity"),
         (n, true) => (format!("{n} and the weight"), "applied forces"),
     };
-    Decided::new(work.forces, taken, reason)
+    Decision::new(work.forces, taken, reason)
 }
 
-fn wanted(prepared: &Prepared, value: Vec<usize>) -> Decided<Vec<usize>> {
+fn wanted(prepared: &PreparedMechanism, value: Vec<usize>) -> Decision<Vec<usize>> {
     let groups = &prepared.mechanism.layout().groups;
     let (all, n) = (groups.len(), value.len());
     let names: Vec<&str> = value.iter().map(|&k| groups[k].name.as_str()).collect();
@@ -301,5 +305,5 @@ fn wanted(prepared: &Prepared, value: Vec<usize>) -> Decided<Vec<usize>> {
             format!("wanted at rows of output: {}", names.join(", ")),
         ),
     };
-    Decided::new(value, taken, reason).saving((all - n) as u64, all as u64, Cost::Reactions)
+    Decision::new(value, taken, reason).saving((all - n) as u64, all as u64, Cost::Reactions)
 }

@@ -2,7 +2,7 @@
 
 use model::System;
 
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 
 /// Sizes of a component.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    pub(super) fn of(prepared: &Prepared) -> Self {
+    pub(super) fn of(prepared: &PreparedMechanism) -> Self {
         let layout = prepared.mechanism.layout();
         Self {
             bodies: prepared.mechanism.bodies().len(),

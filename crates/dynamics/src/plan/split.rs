@@ -4,18 +4,20 @@
 use model::start::scene_size;
 use model::{Assembly, Mechanism, Part, Places, System};
 
-use super::decided::Decided;
+use super::decided::Decision;
 use super::saving::Cost;
 use crate::error::MotionError;
 use crate::limits::MOST_COMPONENTS;
 use crate::options::RowChoice;
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 
 /// A prepared part and its places in the whole mechanism.
-type PreparedPart = (Prepared, Places);
+type PreparedPart = (PreparedMechanism, Places);
 
 /// Whether the mechanism is split, and its components; empty if it is not split.
-pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart>), MotionError> {
+pub(super) fn split(
+    whole: &PreparedMechanism,
+) -> Result<(Decision<bool>, Vec<PreparedPart>), MotionError> {
     let sets = whole.mechanism.components();
     let n = sets.len();
     if n == 1 {
@@ -44,14 +46,14 @@ pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart
     let own = |(p, _): &PreparedPart| elimination(&p.mechanism, p.decision.rank);
     let apart: u64 = parts.iter().map(own).sum();
     let taken = format!("{n}, each with its own method and steps");
-    let decided = Decided::new(true, taken, "no joint, drive or force connects them");
+    let decided = Decision::new(true, taken, "no joint, drive or force connects them");
     let decided = decided.saving(of.saturating_sub(apart), of, Cost::Elimination);
     Ok((decided, parts))
 }
 
 /// The decision that the mechanism is not split.
-pub(super) fn stays(reason: String) -> (Decided<bool>, Vec<PreparedPart>) {
-    let decided = Decided::new(false, "solved as one", reason);
+pub(super) fn stays(reason: String) -> (Decision<bool>, Vec<PreparedPart>) {
+    let decided = Decision::new(false, "solved as one", reason);
     (decided, Vec::new())
 }
 
@@ -64,7 +66,7 @@ pub(super) fn elimination(mechanism: &Mechanism, r: usize) -> u64 {
 }
 
 /// A part with the start and the rows of the whole mechanism.
-fn prepared(whole: &Prepared, part: Part) -> PreparedPart {
+fn prepared(whole: &PreparedMechanism, part: Part) -> PreparedPart {
     let Part { mechanism, places } = part;
     let (q, v) = (
         pick(&whole.q, &places.coordinates),
@@ -86,7 +88,7 @@ fn prepared(whole: &Prepared, part: Part) -> PreparedPart {
         residual: s.phi.iter().fold(0.0, |a, phi| f64::max(a, phi.abs())),
         size: scene_size(&mechanism, &q),
     };
-    let own = Prepared {
+    let own = PreparedMechanism {
         velocity_correction: pick(&whole.velocity_correction, &places.velocities),
         mechanism,
         q,

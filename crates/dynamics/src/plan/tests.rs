@@ -13,7 +13,7 @@ use joints::{
 use model::{Body, BodyRef, Description, Drive, Force, Function, Joint, Mechanism, StartOptions};
 
 use super::*;
-use crate::counts::{Counted, counted};
+use crate::counts::{WorkKind, counted};
 use crate::{Failure, Method, RowChoice, Summary, prepare};
 use watched::{Calls, take, watch};
 
@@ -55,7 +55,7 @@ fn stiff(d: &mut Description) {
     });
 }
 
-fn scene(build: impl FnOnce(&mut Description)) -> Prepared {
+fn scene(build: impl FnOnce(&mut Description)) -> PreparedMechanism {
     let mut d = Description {
         gravity: [0.0, -9.81],
         ..Description::default()
@@ -83,10 +83,10 @@ fn go(plan: &Plan<'_>) -> Summary {
 #[test]
 fn independent_rows_are_neither_monitored_nor_judged() {
     let single = scene(|d| pendulum(d, "bob", 0.0));
-    let plan = Plan::new(&single, &to(1.0), &Wanted::default()).expect("a plan");
+    let plan = Plan::new(&single, &to(1.0), &OutputRequest::default()).expect("a plan");
     assert_eq!(plan.components[0].decisions.dropped.value, 0);
     let work = counted(|| drop(go(&plan)));
-    let kept_row_work = [Counted::Monitors, Counted::Coefficients].map(&work);
+    let kept_row_work = [WorkKind::Monitors, WorkKind::Coefficients].map(&work);
     assert_eq!(kept_row_work, [0, 0]);
     // The same pendulum held twice has two rows too many.
     let double = scene(|d| {
@@ -97,11 +97,11 @@ fn independent_rows_are_neither_monitored_nor_judged() {
             ..twin
         });
     });
-    let plan = Plan::new(&double, &to(1.0), &Wanted::default()).expect("a plan");
+    let plan = Plan::new(&double, &to(1.0), &OutputRequest::default()).expect("a plan");
     assert_eq!(plan.components[0].decisions.dropped.value, 2);
     let work = counted(|| drop(go(&plan)));
     assert!(
-        [Counted::Monitors, Counted::Coefficients]
+        [WorkKind::Monitors, WorkKind::Coefficients]
             .map(&work)
             .iter()
             .all(|n| *n > 0)
@@ -110,8 +110,8 @@ fn independent_rows_are_neither_monitored_nor_judged() {
 
 #[test]
 fn solutions_are_refined_where_digits_would_be_lost() {
-    let refinement = |p: &Prepared| {
-        let plan = Plan::new(p, &to(1.0), &Wanted::default()).expect("a plan");
+    let refinement = |p: &PreparedMechanism| {
+        let plan = Plan::new(p, &to(1.0), &OutputRequest::default()).expect("a plan");
         let decided = &plan.components[0].decisions.refinement;
         (decided.value, decided.reason.clone())
     };
@@ -143,20 +143,20 @@ fn solutions_are_refined_where_digits_would_be_lost() {
 fn multipliers_are_those_that_are_wanted() {
     let p = scene(|d| pendulum(d, "bob", 0.0));
     let solved = |reactions| {
-        let wanted = Wanted {
+        let wanted = OutputRequest {
             reactions,
-            ..Wanted::default()
+            ..OutputRequest::default()
         };
         let plan = Plan::new(&p, &to(1.0), &wanted).expect("a plan");
         let work = counted(|| drop(go(&plan)));
-        work(Counted::Multipliers)
+        work(WorkKind::Multipliers)
     };
     let one = Reactions::Of(vec!["pin of bob".into()]);
     assert_eq!([solved(Reactions::All), solved(one)], [9, 9]);
     assert_eq!(solved(Reactions::None), 0);
-    let nobody = Wanted {
+    let nobody = OutputRequest {
         reactions: Reactions::Of(vec!["nobody".into()]),
-        ..Wanted::default()
+        ..OutputRequest::default()
     };
     let refused = Plan::new(&p, &to(1.0), &nobody)
         .err()
@@ -169,10 +169,10 @@ fn explicit_methods_have_no_linear_systems() {
     let p = scene(|d| pendulum(d, "bob", 0.0));
     let made = |method| {
         let options = MotionOptions { method, ..to(0.5) };
-        let plan = Plan::new(&p, &options, &Wanted::default()).expect("a plan");
+        let plan = Plan::new(&p, &options, &OutputRequest::default()).expect("a plan");
         let decided = plan.components[0].decisions.linear_systems.value;
         let work = counted(|| drop(go(&plan)));
-        (decided, work(Counted::LinearSystems))
+        (decided, work(WorkKind::LinearSystems))
     };
     for method in [Method::Auto, Method::Dopri5, Method::Dop853, Method::Tsit5] {
         assert_eq!(made(method), (false, 0), "{method:?}");
@@ -183,11 +183,11 @@ fn explicit_methods_have_no_linear_systems() {
 #[test]
 fn rows_that_nobody_wants_are_not_computed() {
     let p = scene(|d| pendulum(d, "bob", 0.0));
-    let wanted = Wanted {
+    let wanted = OutputRequest {
         rows: Rows::Ends,
         accelerations: false,
         reactions: Reactions::None,
-        ..Wanted::default()
+        ..OutputRequest::default()
     };
     let plan = Plan::new(&p, &to(2.0), &wanted).expect("a plan");
     let mut times = Vec::new();
@@ -198,7 +198,7 @@ fn rows_that_nobody_wants_are_not_computed() {
         })
         .expect("moves");
     assert_eq!(times, [0.0, 2.0]);
-    let all = go(&Plan::new(&p, &to(2.0), &Wanted::default()).expect("a plan"));
+    let all = go(&Plan::new(&p, &to(2.0), &OutputRequest::default()).expect("a plan"));
     assert_eq!(ends.steps, all.steps);
     assert!(
         ends.evaluations < all.evaluations,
@@ -232,11 +232,11 @@ fn rows_that_nobody_wants_are_not_computed() {
 fn interpolated_rows_are_those_on_the_constraints_to_the_tolerance() {
     let p = scene(|d| pendulum(d, "bob", 0.0));
     let states = |rows: Rows| {
-        let wanted = Wanted {
+        let wanted = OutputRequest {
             rows,
             accelerations: false,
             reactions: Reactions::None,
-            ..Wanted::default()
+            ..OutputRequest::default()
         };
         let plan = Plan::new(&p, &to(2.0), &wanted).expect("a plan");
         let mut states = Vec::new();
@@ -262,7 +262,10 @@ fn interpolated_rows_are_those_on_the_constraints_to_the_tolerance() {
 /// One row: time, q, v, accelerations, reactions.
 type Row = (f64, Vec<f64>, Vec<f64>, Vec<f64>, Vec<model::Reaction>);
 
-fn record(p: &Prepared, options: &MotionOptions) -> (Vec<Row>, Result<Summary, Box<Failure>>) {
+fn record(
+    p: &PreparedMechanism,
+    options: &MotionOptions,
+) -> (Vec<Row>, Result<Summary, Box<Failure>>) {
     let mut rows = Vec::new();
     let outcome = crate::simulate(p, options, |s| {
         let (a, reactions) = (s.acceleration()?, s.reactions()?.as_chosen().to_vec());
@@ -280,7 +283,7 @@ fn components_move_as_they_do_alone_and_each_at_its_own_pace() {
     });
     let [slow, fast] = [scene(stiff), scene(|d| pendulum(d, "bob", 0.0))];
     let options = to(2.0);
-    let plan = Plan::new(&both, &options, &Wanted::default()).expect("a plan");
+    let plan = Plan::new(&both, &options, &OutputRequest::default()).expect("a plan");
     let methods: Vec<Method> = plan
         .components
         .iter()
@@ -346,7 +349,7 @@ fn the_first_component_to_stop_stops_all() {
         d.joints
             .push(Joint::new("upright", &[GROUND, block], Angle::new()));
     });
-    let plan = Plan::new(&p, &to(0.4), &Wanted::default()).expect("a plan");
+    let plan = Plan::new(&p, &to(0.4), &OutputRequest::default()).expect("a plan");
     assert_eq!(plan.components.len(), 2);
     assert_eq!(
         plan.components[1].decisions.mobility.taken,
@@ -369,7 +372,11 @@ fn the_first_component_to_stop_stops_all() {
 }
 
 /// Calls of the kernels of the first joint in a run with this plan, the start left out.
-fn calls(build: impl FnOnce(&mut Description), options: &MotionOptions, wanted: &Wanted) -> Calls {
+fn calls(
+    build: impl FnOnce(&mut Description),
+    options: &MotionOptions,
+    wanted: &OutputRequest,
+) -> Calls {
     let mut notes = None;
     let p = scene(|d| {
         build(d);
@@ -384,9 +391,9 @@ fn calls(build: impl FnOnce(&mut Description), options: &MotionOptions, wanted: 
 
 #[test]
 fn kernels_of_what_is_left_out_are_not_called() {
-    let everything = Wanted::default();
+    let everything = OutputRequest::default();
     let fall = |d: &mut Description| pendulum(d, "bob", 0.0);
-    let calls = |wanted: &Wanted, method| {
+    let calls = |wanted: &OutputRequest, method| {
         let options = MotionOptions { method, ..to(1.0) };
         calls(fall, &options, wanted)
     };
@@ -398,9 +405,9 @@ fn kernels_of_what_is_left_out_are_not_called() {
         "nothing depends on time, nothing is stiff"
     );
     assert_eq!(all.wrench, 9, "one for each row");
-    let nobody = Wanted {
+    let nobody = OutputRequest {
         reactions: Reactions::None,
-        ..Wanted::default()
+        ..OutputRequest::default()
     };
     assert_eq!(calls(&nobody, Method::Dop853).wrench, 0);
     assert!(calls(&everything, Method::Radau5).derivatives > 0);
@@ -414,9 +421,9 @@ fn a_component_does_not_work_for_another() {
         stiff(d);
     };
     // Rows that are passed on together are computed in advance: only the requested values.
-    let wanted = Wanted {
+    let wanted = OutputRequest {
         accelerations: false,
-        ..Wanted::default()
+        ..OutputRequest::default()
     };
     let [with, alone] = [
         calls(both, &to(1.0), &wanted),
@@ -477,7 +484,7 @@ fn guided(d: &mut Description) {
 #[test]
 fn bodies_that_do_not_turn_have_one_sine_and_cosine() {
     let p = scene(guided);
-    let plan = Plan::new(&p, &to(2.0), &Wanted::default()).expect("a plan");
+    let plan = Plan::new(&p, &to(2.0), &OutputRequest::default()).expect("a plan");
     let turning = &plan.components[0].decisions.turning;
     assert_eq!((turning.value, turning.taken.as_str()), (1, "1 of 3"));
     for turn in 0..2 {
@@ -487,7 +494,7 @@ fn bodies_that_do_not_turn_have_one_sine_and_cosine() {
                 d.joints.swap(0, turn);
             },
             &to(2.0),
-            &Wanted::default(),
+            &OutputRequest::default(),
         );
         assert_eq!(seen.sines.len(), 1, "joint {turn}: {:?}", seen.sines);
         // Rows of angles have constant C and no Γ.
@@ -504,8 +511,8 @@ fn too_many_components_stay_one() {
             d.bodies = (0..n).map(one).collect();
         })
     };
-    let components = |p: &Prepared| {
-        let plan = Plan::new(p, &to(1.0), &Wanted::default()).expect("a plan");
+    let components = |p: &PreparedMechanism| {
+        let plan = Plan::new(p, &to(1.0), &OutputRequest::default()).expect("a plan");
         (plan.components.len(), plan.apart.reason)
     };
     assert_eq!(components(&free(256)).0, 256);

@@ -4,7 +4,7 @@
 use crate::error::MotionFault;
 use crate::limits::REMEMBERED;
 use crate::options::MotionOptions;
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 
 /// Derivatives at the times of a step.
 #[derive(Default)]
@@ -18,7 +18,7 @@ impl ByTime {
     /// Storage for a run that evaluates derivatives as functions of time, otherwise `None`. It is
     /// not used with generated code: there the interpreter is called near singular configurations
     /// only, and the integrator determines the state.
-    pub(super) fn for_run(prepared: &Prepared, options: &MotionOptions) -> Option<Self> {
+    pub(super) fn for_run(prepared: &PreparedMechanism, options: &MotionOptions) -> Option<Self> {
         let is_interpreted = prepared.code_for(options).is_err();
         (is_interpreted && prepared.is_function_of_time(options)).then(Self::default)
     }

@@ -20,7 +20,7 @@ use crate::error::{MotionError, MotionFault};
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
 use crate::plan::{self, ComponentPlan, Plan, Verdicts};
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 
 /// The failure of a run that has not begun.
 pub(super) fn not_begun(error: MotionError) -> Box<Failure> {
@@ -141,7 +141,7 @@ fn carried_choices<'p>(
     if plan.choices.is_empty() || wanted.reactions.is_empty() {
         return Ok(None);
     }
-    let Prepared {
+    let PreparedMechanism {
         mechanism,
         q,
         decision,
@@ -157,7 +157,7 @@ fn carried_choices<'p>(
 /// Within a stated tolerance data explain what joints miss where drives move them, so that no
 /// dropped row shows during the run that a drive prescribes what joints forbid: it does not begin
 /// then.
-fn drives_agree(prepared: &Prepared, t_end: f64) -> Result<(), MotionError> {
+fn drives_agree(prepared: &PreparedMechanism, t_end: f64) -> Result<(), MotionError> {
     if !prepared.may_miss {
         return Ok(());
     }
@@ -169,7 +169,7 @@ fn drives_agree(prepared: &Prepared, t_end: f64) -> Result<(), MotionError> {
 }
 
 /// Refuses a start at which second order excludes the acceleration that the loads cause.
-fn check_finite(prepared: &Prepared) -> Result<(), MotionError> {
+fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
     let (mechanism, decision) = (&prepared.mechanism, &prepared.decision);
     let layout = mechanism.layout();
     if decision.redundancy == 0 || decision.rank == layout.n_v || layout.rows() > ONE_PART {
@@ -193,7 +193,7 @@ fn check_finite(prepared: &Prepared) -> Result<(), MotionError> {
 
 /// If drives contradict each other or prescribe what joints forbid, names these drives as the cause
 /// of a violated dropped row, whichever row was dropped.
-fn of_drives(prepared: &Prepared, t_end: f64, error: MotionError) -> MotionError {
+fn of_drives(prepared: &PreparedMechanism, t_end: f64, error: MotionError) -> MotionError {
     let MotionError::Fault(MotionFault::DroppedRow { time, .. }) = &error else {
         return error;
     };
@@ -212,7 +212,11 @@ fn of_drives(prepared: &Prepared, t_end: f64, error: MotionError) -> MotionError
 
 /// If drives prescribe what no configuration near the last state satisfies, names these drives as
 /// the cause why the steps end there, whichever row or number was found first.
-fn at_drive_limit(prepared: &Prepared, (t, y): (f64, &[f64]), error: MotionError) -> MotionError {
+fn at_drive_limit(
+    prepared: &PreparedMechanism,
+    (t, y): (f64, &[f64]),
+    error: MotionError,
+) -> MotionError {
     let is_of_steps = match &error {
         MotionError::Integration(e) => matches!(**e, IntegrationError::StepSizeCollapsed { .. }),
         MotionError::Fault(fault) => matches!(
@@ -246,7 +250,7 @@ fn at_drive_limit(prepared: &Prepared, (t, y): (f64, &[f64]), error: MotionError
 
 /// Checks whether a violated dropped row is redundant at the start only; then it does not
 /// contradict any other row.
-fn at_singular_start(prepared: &Prepared, error: MotionError) -> MotionError {
+fn at_singular_start(prepared: &PreparedMechanism, error: MotionError) -> MotionError {
     let MotionError::Fault(MotionFault::DroppedRow {
         time,
         row,

@@ -5,14 +5,14 @@ use std::ops::ControlFlow;
 
 use integrators::{Delicate, Implicit, IntegrationError, Ode, StepEnd, StepInfo, Tolerance};
 use model::{ConstraintId, Mechanism, System};
-use solvability::{CarriedChoices, Group, Looked, NamedChoice, Stretches};
+use solvability::{CarriedChoices, Group, InstantOrder, NamedChoice, Stretches};
 
 use super::by_time::ByTime;
 use super::caller::Stop;
 use super::impulse::cross_break;
 use super::record::Record;
-use super::reduced::Reduced;
-use super::sample::{AtRows, Known, OfMotion, Sample, Source};
+use super::reduced::ReducedJacobian;
+use super::sample::{AtRows, OfMotion, Sample, SolveProgress, Source};
 use super::span::Span;
 use super::summary::DroppedRows;
 use super::verdicts::RunVerdicts;
@@ -21,7 +21,7 @@ use crate::guards::GUARDED;
 use crate::limits::{COARSE, IMPLICIT_REACH, QUATERNION_LENGTHS};
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 use crate::solve::Misfit;
 use crate::watch::{Next, Now, are_delicate};
 
@@ -48,8 +48,8 @@ pub(super) struct RunEquations<'m> {
     /// Verdicts on the way, if reactions are requested.
     verdicts: Option<RunVerdicts<'m>>,
     /// Linear systems of implicit methods, allocated by their first step.
-    reduced: Option<Reduced>,
-    until: Until<'m>,
+    reduced: Option<ReducedJacobian>,
+    until: EndCondition<'m>,
     passing: Passing,
     /// Whether stages of the present step were evaluated by generated code that is no longer in
     /// use; then the step begins again.
@@ -74,7 +74,7 @@ struct Passing {
 }
 
 /// When the run ends.
-struct Until<'m> {
+struct EndCondition<'m> {
     t_end: f64,
     stop: &'m Stop<'m>,
 }
@@ -90,7 +90,7 @@ impl<'m> RunEquations<'m> {
     /// The equations of a motion at its start, at which the rows are factored.
     pub(super) fn new(
         motion: KeptRowMotion<'m>,
-        prepared: &Prepared,
+        prepared: &PreparedMechanism,
         options: &MotionOptions,
         (wanted, verdicts): (AtRows, Option<RunVerdicts<'m>>),
         (choices, carried_choices): (&'m [NamedChoice], Option<CarriedChoices<'m>>),
@@ -107,7 +107,7 @@ impl<'m> RunEquations<'m> {
             carried_choices,
             verdicts,
             reduced: None,
-            until: Until {
+            until: EndCondition {
                 t_end: options.t_end,
                 stop,
             },
@@ -257,9 +257,9 @@ impl<'m> RunEquations<'m> {
         }
         let source = OfMotion {
             known: if found.is_some() && is_settled {
-                Known::Factored
+                SolveProgress::Factored
             } else {
-                Known::Nothing
+                SolveProgress::Nothing
             },
             t_before,
             wanted: &self.wanted,
@@ -284,8 +284,8 @@ impl<'m> RunEquations<'m> {
     }
 
     /// The motion and its linear systems.
-    fn implicit(&mut self) -> (&mut KeptRowMotion<'m>, &mut Reduced) {
-        let new = || Reduced::new(&self.motion);
+    fn implicit(&mut self) -> (&mut KeptRowMotion<'m>, &mut ReducedJacobian) {
+        let new = || ReducedJacobian::new(&self.motion);
         let reduced = self.reduced.get_or_insert_with(new);
         (&mut self.motion, reduced)
     }
@@ -325,7 +325,12 @@ impl<'m> RunEquations<'m> {
             self.motion.end_row(t_before, (q, v))?;
         }
         let (q, _) = self.motion.parts(y);
-        let looked = verdicts.look(&mut self.motion, (t, t_before, q), false, Looked::Ahead);
+        let looked = verdicts.look(
+            &mut self.motion,
+            (t, t_before, q),
+            false,
+            InstantOrder::Ahead,
+        );
         let not_of_run = verdicts.not_of_run();
         let wanted = &mut self.wanted.reactions;
         wanted.retain(|k| !not_of_run.contains(&ConstraintId(*k)));

@@ -30,7 +30,7 @@ pub(super) struct Run<'r, 'm> {
     pub(super) stopped: Option<MotionError>,
 }
 
-type Integrated = Result<Outcome, Box<integrators::Failure<MotionFault>>>;
+type IntegrationResult = Result<Outcome, Box<integrators::Failure<MotionFault>>>;
 
 impl<'r, 'm> Run<'r, 'm> {
     /// A run that has not begun.
@@ -56,7 +56,7 @@ impl<'r, 'm> Run<'r, 'm> {
         interval: &Interval<'_>,
         y0: &[f64],
         settings: &Options,
-    ) -> Integrated {
+    ) -> IntegrationResult {
         if self.show_start(y0).is_break() {
             return Ok(Outcome {
                 t: interval.t0,
@@ -125,7 +125,7 @@ impl<'r, 'm> Run<'r, 'm> {
         &mut self,
         method: &M,
         (interval, y, settings): (&Interval<'_>, &[f64], &Options),
-    ) -> (bool, Integrated) {
+    ) -> (bool, IntegrationResult) {
         let Self {
             equations,
             rows,

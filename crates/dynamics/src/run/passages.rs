@@ -7,7 +7,7 @@ use solvability::{KERNEL_MAX, PassageKind, State, singular_passages};
 
 use super::equations::RunEquations;
 use crate::limits::{BESIDE, JUDGED_MOST, MOST_PASSAGES, PASSAGE_STATES};
-use crate::watch::{Search, Singular};
+use crate::watch::{Singular, SingularitySearch};
 
 /// Searches an accepted step for singular configurations, if it may contain one.
 pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
@@ -39,7 +39,7 @@ pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
                 .uniqueness
                 .push((singular.dependent, words));
         }
-        let search = Search::new(&step.ode().motion.equations);
+        let search = SingularitySearch::new(&step.ode().motion.equations);
         let words = step
             .ode()
             .record
@@ -54,7 +54,7 @@ pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
 /// searched as well.
 fn found(step: &mut Step<'_, RunEquations<'_>>) -> Vec<Singular> {
     let noise = step.ode().motion.watch.nearest();
-    let mut search = Search::new(&step.ode().motion.equations);
+    let mut search = SingularitySearch::new(&step.ode().motion.equations);
     let mut y = step.y0().to_vec();
     let whole = [step.t0(), step.t1()];
     let mut state = |t: f64, q: &mut [f64]| {

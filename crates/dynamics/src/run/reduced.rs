@@ -21,7 +21,7 @@
 use linalg::{Lu, Matrix};
 use model::{Derivatives, Mechanism, System};
 
-use crate::counts::{Counted, note};
+use crate::counts::{WorkKind, note};
 use crate::error::MotionFault;
 use crate::manifold::Origin;
 use crate::motion::KeptRowMotion;
@@ -30,7 +30,7 @@ use crate::solve::KeptEquations;
 /// The Jacobian at one instant, and factors of shifted ones.
 ///
 /// ```
-/// use pfaff_dynamics::{KeptRowMotion, Reduced, RowChoice, prepare};
+/// use pfaff_dynamics::{KeptRowMotion, ReducedJacobian, RowChoice, prepare};
 /// use joints::Revolute;
 /// use model::{Body, BodyRef, Description, Joint, Mechanism, StartOptions};
 /// // A pendulum of length 1 at rest below its pivot: u̇ = −g/(l² + I/m)·l·z with its angle z, here −10/(1 + 0.25) = −8.
@@ -43,17 +43,17 @@ use crate::solve::KeptEquations;
 /// let mechanism = Mechanism::build(&pendulum).unwrap();
 /// let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)?;
 /// let mut motion = KeptRowMotion::new(&prepared)?;
-/// let mut reduced = Reduced::new(&motion);
+/// let mut reduced = ReducedJacobian::new(&motion);
 /// reduced.linearise(&mut motion, 0.0, &[0.0, -1.0, 0.0, 0.0, 0.0, 0.0])?;
 /// let jacobian = reduced.jacobian();
 /// // w is [angle; angular velocity] or [x; v_x], which are the same here.
 /// assert!((jacobian[(0, 1)] - 1.0).abs() < 1e-14 && (jacobian[(1, 0)] + 8.0).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Reduced {
+pub struct ReducedJacobian {
     /// Storage, made when it is first needed.
     derivatives: Option<Derivatives>,
-    partition: Partition,
+    partition: ReducedCoordinates,
     /// Row j: column j of D.
     columns: Matrix,
     /// The product S·D.
@@ -64,13 +64,13 @@ pub struct Reduced {
     displacements: Matrix,
     /// Time of the Jacobian.
     time: f64,
-    shifted: Shifted,
-    storage: Storage,
+    shifted: ShiftedFactors,
+    storage: EvaluationStorage,
 }
 
 /// How w is read from y for one choice of independent coordinates.
 #[derive(Default)]
-struct Partition {
+struct ReducedCoordinates {
     generation: u64,
     /// Number of the configuration against which rotations are read.
     base: u64,
@@ -87,7 +87,7 @@ struct Partition {
 }
 
 /// `σ·I − S·D` for a real σ and a complex one, factored.
-struct Shifted {
+struct ShiftedFactors {
     real: Lu,
     /// Factors of the real form [αI − S·D, −βI; βI, αI − S·D].
     complex: Lu,
@@ -98,7 +98,7 @@ struct Shifted {
 }
 
 /// Vectors of one evaluation.
-struct Storage {
+struct EvaluationStorage {
     dq: Vec<f64>,
     dv: Vec<f64>,
     force: Vec<f64>,
@@ -107,7 +107,7 @@ struct Storage {
     dy: Vec<f64>,
 }
 
-impl Partition {
+impl ReducedCoordinates {
     /// Reads coordinates, and finds the normals, at this configuration.
     fn read_from(&mut self, mechanism: &Mechanism, q: &[f64], base: u64) {
         self.base = base;
@@ -118,7 +118,7 @@ impl Partition {
     }
 }
 
-impl Shifted {
+impl ShiftedFactors {
     /// Storage for k entries of w.
     fn new(k: usize) -> Self {
         Self {
@@ -131,23 +131,23 @@ impl Shifted {
     }
 }
 
-impl Reduced {
+impl ReducedJacobian {
     /// Allocates storage for a motion; nothing is linearised yet.
     #[must_use]
     pub fn new(motion: &KeptRowMotion<'_>) -> Self {
-        note(Counted::LinearSystems);
+        note(WorkKind::LinearSystems);
         let mechanism = motion.mechanism();
         let layout = mechanism.layout();
         Self {
             derivatives: None,
-            partition: Partition::default(),
+            partition: ReducedCoordinates::default(),
             columns: Matrix::default(),
             on_w: Matrix::default(),
             tangents: Matrix::default(),
             displacements: Matrix::default(),
             time: 0.0,
-            shifted: Shifted::new(0),
-            storage: Storage {
+            shifted: ShiftedFactors::new(0),
+            storage: EvaluationStorage {
                 dq: vec![0.0; layout.n_v],
                 dv: vec![0.0; layout.n_v],
                 force: vec![0.0; layout.n_v],
@@ -198,7 +198,7 @@ impl Reduced {
         self.storage.dy.resize(y.len(), 0.0);
         motion.derivative(t, y, &mut self.storage.dy)?;
         self.take_partition(motion, y);
-        let Storage { dy, lambda, .. } = &mut self.storage;
+        let EvaluationStorage { dy, lambda, .. } = &mut self.storage;
         let equations = &mut motion.equations;
         let a = &dy[n_q..n_q + mechanism.layout().n_v];
         equations.multipliers_for(a, lambda)?;
@@ -218,7 +218,7 @@ impl Reduced {
     /// is another function of y, although the motion is the same.
     ///
     /// # Errors
-    /// As [`Reduced::linearise`] and [`Reduced::factor`].
+    /// As [`ReducedJacobian::linearise`] and [`ReducedJacobian::factor`].
     pub(crate) fn follow_partition(
         &mut self,
         motion: &mut KeptRowMotion<'_>,
@@ -290,10 +290,10 @@ impl Reduced {
         self.columns = Matrix::zeros(k, n);
         self.tangents = Matrix::zeros(k, n);
         self.displacements = Matrix::zeros(k, mechanism.layout().n_v);
-        self.shifted = Shifted {
+        self.shifted = ShiftedFactors {
             shift: shifted.shift,
             complex_shift: shifted.complex_shift,
-            ..Shifted::new(k)
+            ..ShiftedFactors::new(k)
         };
     }
 
@@ -315,7 +315,7 @@ impl Reduced {
         let mechanism = at.mechanism;
         let layout = mechanism.layout();
         let partition = &self.partition;
-        let Storage {
+        let EvaluationStorage {
             dq,
             dv,
             force,

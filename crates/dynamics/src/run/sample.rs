@@ -1,7 +1,7 @@
 //! One row of output: a state, and values computed from it on request.
 
 use model::{Mechanism, Reaction, System};
-use solvability::{CarriedChoices, CarriedSolution, ChoiceError, Chosen, NamedChoice};
+use solvability::{CarriedChoices, CarriedSolution, ChoiceError, ChosenValues, NamedChoice};
 
 use crate::error::MotionFault;
 use crate::events::Event;
@@ -32,9 +32,9 @@ pub struct Sample<'s, 'm> {
 #[non_exhaustive]
 pub struct ChosenReactions {
     /// Multipliers of all rows, NaN as in [`Sample::multipliers`].
-    pub multipliers: Chosen<f64>,
+    pub multipliers: ChosenValues<f64>,
     /// Reactions of all joints and drives, NaN as in [`Sample::reactions`].
-    pub reactions: Chosen<Reaction>,
+    pub reactions: ChosenValues<Reaction>,
     /// Why the choice selects no solution here; then all numbers are NaN.
     pub refused: Option<ChoiceError>,
 }
@@ -53,7 +53,7 @@ pub(super) struct OfMotion<'s, 'm> {
     pub(super) t_before: f64,
     pub(super) wanted: &'s AtRows,
     pub(super) motion: &'s mut KeptRowMotion<'m>,
-    pub(super) known: Known,
+    pub(super) known: SolveProgress,
     /// What solves for the requested choices.
     pub(super) choices: Option<&'s CarriedChoices<'m>>,
     /// Multipliers, once they were asked for.
@@ -63,7 +63,7 @@ pub(super) struct OfMotion<'s, 'm> {
 }
 
 /// How far the equations of a row have been solved; they are solved at most once.
-pub(super) enum Known {
+pub(super) enum SolveProgress {
     Nothing,
     /// Rows are factored at the pose of the scratch, which is that of the row.
     Factored,
@@ -128,12 +128,12 @@ impl Sample<'_, '_> {
     ///
     /// # Errors
     /// If the equations have no unique solution at this state.
-    pub fn multipliers(&mut self) -> Result<Chosen<f64>, MotionFault> {
+    pub fn multipliers(&mut self) -> Result<ChosenValues<f64>, MotionFault> {
         let multipliers = match &mut self.source {
             Source::Motion(source) => source.multipliers(self.q, self.v),
             Source::Several(values) => values.multipliers.clone(),
         };
-        Ok(Chosen::new(multipliers?, self.dropped.to_vec()))
+        Ok(ChosenValues::new(multipliers?, self.dropped.to_vec()))
     }
 
     /// Reactions of all joints and drives in the order of their rows; NaN for those that the plan
@@ -142,12 +142,12 @@ impl Sample<'_, '_> {
     ///
     /// # Errors
     /// If the equations have no unique solution at this state.
-    pub fn reactions(&mut self) -> Result<Chosen<Reaction>, MotionFault> {
+    pub fn reactions(&mut self) -> Result<ChosenValues<Reaction>, MotionFault> {
         let reactions = match &mut self.source {
             Source::Motion(source) => source.reactions(self.q, self.v),
             Source::Several(values) => values.reactions.clone(),
         };
-        Ok(Chosen::new(reactions?, self.dropped.to_vec()))
+        Ok(ChosenValues::new(reactions?, self.dropped.to_vec()))
     }
 
     /// Multipliers and reactions by each of [`Self::choices`], of the same accelerations. What the
@@ -162,8 +162,8 @@ impl Sample<'_, '_> {
         };
         let each = chosen?.into_iter().zip(self.choices);
         let each = each.map(|(own, choice)| ChosenReactions {
-            multipliers: Chosen::by(own.multipliers, choice),
-            reactions: Chosen::by(own.reactions, choice),
+            multipliers: ChosenValues::by(own.multipliers, choice),
+            reactions: ChosenValues::by(own.reactions, choice),
             refused: own.refused,
         });
         Ok(each.collect())
@@ -182,11 +182,11 @@ impl<'m> OfMotion<'_, 'm> {
     fn solve(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
         let mut a = vec![0.0; v.len()];
         match &self.known {
-            Known::Nothing => self.motion.acceleration(self.t_before, q, v, &mut a)?,
-            Known::Factored => self.motion.solve_factored(v, &mut a)?,
-            Known::Solved(a) => return Ok(a.clone()),
+            SolveProgress::Nothing => self.motion.acceleration(self.t_before, q, v, &mut a)?,
+            SolveProgress::Factored => self.motion.solve_factored(v, &mut a)?,
+            SolveProgress::Solved(a) => return Ok(a.clone()),
         }
-        self.known = Known::Solved(a.clone());
+        self.known = SolveProgress::Solved(a.clone());
         Ok(a)
     }
 

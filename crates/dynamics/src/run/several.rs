@@ -37,14 +37,14 @@ struct Link<'p> {
     rows: Receiver<Row>,
 }
 
-type Integrated = Result<Summary, Box<Failure>>;
+type RunResult = Result<Summary, Box<Failure>>;
 
 /// Runs all components of a plan and passes on their combined rows.
 pub(super) fn run(
     plan: &Plan<'_>,
     watched: (&Watch<'_>, &Stop<'_>),
     row: &mut ShowRow<'_>,
-) -> Integrated {
+) -> RunResult {
     let clock = Instant::now();
     let whole = Places::default();
     let permits = Permits::new(plan.options().threads);
@@ -89,7 +89,7 @@ pub(super) fn run(
 }
 
 /// The result of a thread; a panic in it is passed on.
-fn joined(handle: ScopedJoinHandle<'_, Integrated>) -> Integrated {
+fn joined(handle: ScopedJoinHandle<'_, RunResult>) -> RunResult {
     handle
         .join()
         .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
@@ -226,10 +226,10 @@ fn spread<T: Copy>(own: &[T], places: &[usize], whole: &mut [T]) {
 /// The outcome of the whole mechanism from those of its components.
 fn conclude(
     plan: &Plan<'_>,
-    outcomes: Vec<Integrated>,
+    outcomes: Vec<RunResult>,
     stopped: Option<MotionError>,
     wall_seconds: f64,
-) -> Integrated {
+) -> RunResult {
     let mut components = Vec::with_capacity(outcomes.len());
     let mut earliest: Option<(f64, MotionError)> = None;
     for (component, outcome) in plan.components.iter().zip(outcomes) {

@@ -13,13 +13,13 @@ pub(super) struct Span {
     times: [f64; 2],
     ends: [Vec<f64>; 4],
     /// Sizes with which rows of this step are compared, computed at its first row.
-    sizes: Option<Sizes>,
+    sizes: Option<StepScales>,
     led: Vec<f64>,
 }
 
 /// Sizes of a step.
 #[derive(Clone, Copy)]
-struct Sizes {
+struct StepScales {
     /// The longest displacement along a column of C, in units of the mechanism.
     way: f64,
     /// Momentum in the mass metric: that of the velocities at the ends of the step, and that of a
@@ -53,7 +53,7 @@ impl Span {
         if self.lead(t).is_none() {
             return Ok(());
         }
-        let Sizes { way, speed, mean } = match self.sizes {
+        let StepScales { way, speed, mean } = match self.sizes {
             Some(sizes) => sizes,
             None => {
                 let sizes = self.measure(mechanism, size);
@@ -80,7 +80,7 @@ impl Span {
         })
     }
 
-    fn measure(&mut self, mechanism: &Mechanism, size: f64) -> Sizes {
+    fn measure(&mut self, mechanism: &Mechanism, size: f64) -> StepScales {
         let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
         let unit = |j: usize| mechanism.space().unit(j, size);
         let mass = mechanism.mass();
@@ -91,7 +91,7 @@ impl Span {
         let (_, apart) = mechanism.largest_difference(&y1[..n_q], &y0[..n_q], size);
         let way = (0..n_v).map(at_speed).fold(apart, f64::max);
         let fastest = |i: usize| largest(y0, y1, i) + h * largest(f0, f1, i);
-        Sizes {
+        StepScales {
             way,
             speed: momentum(mass, (n_q..n_q + n_v).map(fastest)),
             // A long step of a drive may begin and end at rest.

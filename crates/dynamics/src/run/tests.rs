@@ -35,18 +35,20 @@ fn guided(d: &mut Description, name: &str, y: f64, law: Law) {
         .expect("one row");
 }
 
-fn prepared(d: &Description) -> Prepared {
+fn prepared(d: &Description) -> PreparedMechanism {
     let mechanism = Mechanism::build(d).expect("builds");
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts")
 }
 
-fn of_law(law: Law) -> Prepared {
+fn of_law(law: Law) -> PreparedMechanism {
     let mut d = Description::new("oscillator");
     guided(&mut d, "mass", 0.0, law);
     prepared(&d)
 }
 
-fn called(f: impl Fn(&DriveState) -> Result<f64, CallError> + Send + Sync + 'static) -> Prepared {
+fn called(
+    f: impl Fn(&DriveState) -> Result<f64, CallError> + Send + Sync + 'static,
+) -> PreparedMechanism {
     of_law(Law::called(f))
 }
 
@@ -78,7 +80,7 @@ fn options(method: Method) -> MotionOptions {
 }
 
 /// Times, coordinates and velocities of all rows.
-fn rows(prepared: &Prepared, method: Method) -> Vec<(f64, Vec<f64>, Vec<f64>)> {
+fn rows(prepared: &PreparedMechanism, method: Method) -> Vec<(f64, Vec<f64>, Vec<f64>)> {
     let mut rows = Vec::new();
     simulate(prepared, &options(method), |sample| {
         rows.push((sample.t, sample.q.to_vec(), sample.v.to_vec()));
@@ -161,7 +163,7 @@ fn auto_chooses_an_explicit_method_and_one_clock() {
         prepared(&d)
     };
     let (functions, operations) = (two(&|| Law::called(spring)), two(&written));
-    let plan = |p| Plan::new(p, &options(Method::Auto), &Wanted::default());
+    let plan = |p| Plan::new(p, &options(Method::Auto), &OutputRequest::default());
     let own = plan(&operations).expect("a plan");
     assert_eq!(own.components.len(), 2);
     let own = plan(&functions).expect("a plan");

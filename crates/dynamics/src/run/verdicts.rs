@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use model::{ConstraintId, System};
-use solvability::{CarriedState, CarriedVerdicts, Group, Looked, Stretches, Value, Verdict};
+use solvability::{CarriedState, CarriedVerdicts, Group, InstantOrder, Stretches, Value, Verdict};
 
 use super::summary::DroppedRows;
 use crate::error::MotionFault;
@@ -12,7 +12,7 @@ use crate::events::ReactionImpulse;
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
 use crate::plan::Verdicts;
-use crate::prepare::Prepared;
+use crate::prepare::PreparedMechanism;
 
 /// What is noted of the verdicts of a run.
 pub(super) struct RunVerdicts<'m> {
@@ -35,7 +35,7 @@ impl<'m> RunVerdicts<'m> {
     /// For a run on these rows.
     pub(super) fn new(
         motion: &KeptRowMotion<'m>,
-        prepared: &Prepared,
+        prepared: &PreparedMechanism,
         options: &MotionOptions,
         (groups, wanted): (&[Group], Verdicts),
     ) -> Self {
@@ -74,7 +74,7 @@ impl<'m> RunVerdicts<'m> {
         if self.wanted == Verdicts::OfRun && state.0 > 0.0 {
             return Ok(());
         }
-        self.look(motion, state, is_factored, Looked::Next)
+        self.look(motion, state, is_factored, InstantOrder::Next)
     }
 
     /// Reads the verdicts at a state: its time, the time at which functions are evaluated, and its
@@ -84,7 +84,7 @@ impl<'m> RunVerdicts<'m> {
         motion: &mut KeptRowMotion<'_>,
         (t, t_before, q): (f64, f64, &[f64]),
         is_factored: bool,
-        looked: Looked,
+        looked: InstantOrder,
     ) -> Result<(), MotionFault> {
         let Some(carried) = &mut self.carried else {
             return Ok(());

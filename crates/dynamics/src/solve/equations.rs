@@ -11,7 +11,7 @@ use super::evaluation::Evaluation;
 use super::misfits::Misfits;
 use super::rows::KeptRows;
 use super::{Accelerations, State};
-use crate::counts::{Counted, note};
+use crate::counts::{WorkKind, note};
 use crate::error::MotionFault;
 
 /// A mechanism with its kept rows. All storage is allocated here.
@@ -56,7 +56,7 @@ impl<'m> KeptEquations<'m> {
 
     /// Accelerations, if the pose is evaluated and the rows are factored.
     pub(crate) fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
-        note(Counted::Accelerations);
+        note(WorkKind::Accelerations);
         self.at.gamma_and_force(v);
         self.velocity.take_rhs(|i| self.at.s.gamma[i]);
         let solved = self.velocity.accelerate(&self.at, a);

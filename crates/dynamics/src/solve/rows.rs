@@ -11,8 +11,8 @@ use solvability::{CARRIED_VECTORS, RowDecision};
 
 use super::evaluation::Evaluation;
 use super::solver::Solver;
-use super::units::{Scaled, is_far, mass_in_units, mass_of_positions, units};
-use crate::counts::{Counted, note};
+use super::units::{ScaledVectors, is_far, mass_in_units, mass_of_positions, units};
+use crate::counts::{WorkKind, note};
 use crate::error::MotionFault;
 use crate::limits::{PIVOT_SINGULAR, SUMMED_FROM};
 
@@ -28,7 +28,7 @@ pub(crate) struct KeptRows {
     /// Multipliers of the last solution.
     pub(crate) lambda: Vec<f64>,
     /// Masses, and the force and the motion of a solution, in units of the mechanism.
-    scaled: Scaled,
+    scaled: ScaledVectors,
     /// The rows in these units, and their factors.
     solver: Solver,
     /// Number of kept rows of C, by which the solver was chosen.
@@ -73,7 +73,7 @@ impl KeptRows {
                 source,
             })?,
             of_c,
-            scaled: Scaled::new(units, mass),
+            scaled: ScaledVectors::new(units, mass),
             is_far: is_far(at.size),
             reference_pivot: None,
             partition: None,
@@ -223,7 +223,7 @@ impl KeptRows {
             Some(force) => self.scaled.take_force(force),
             None => self.scaled.force.fill(0.0),
         }
-        let Scaled { force, motion, .. } = &mut self.scaled;
+        let ScaledVectors { force, motion, .. } = &mut self.scaled;
         let (rhs, lambda) = (&self.rhs, &mut self.lambda);
         let solved = self.solver.motion(force, rhs, motion, lambda);
         self.written(at, solved, x)
@@ -240,7 +240,7 @@ impl KeptRows {
             return self.solve(at, Some(&at.s.force), a);
         }
         self.scaled.take_force(&at.s.force);
-        let Scaled { force, motion, .. } = &mut self.scaled;
+        let ScaledVectors { force, motion, .. } = &mut self.scaled;
         let (rhs, lambda) = (&self.rhs, &mut self.lambda);
         let solved = self.solver.refined(force, rhs, motion, lambda);
         self.written(at, solved, a)
@@ -287,7 +287,7 @@ impl KeptRows {
     }
 
     fn solve_for_multipliers(&mut self) -> Result<(), SaddleError> {
-        let Scaled { force, motion, .. } = &self.scaled;
+        let ScaledVectors { force, motion, .. } = &self.scaled;
         self.solver.multipliers(force, motion, &mut self.lambda)
     }
 
@@ -295,7 +295,7 @@ impl KeptRows {
     /// scratch, at which the rows must be factored: rounding of the kept rows is multiplied by it
     /// in the dropped ones.
     pub(crate) fn largest_coefficient(&mut self, at: &Evaluation<'_>) -> f64 {
-        note(Counted::Coefficients);
+        note(WorkKind::Coefficients);
         // Large mechanisms have thousands of dropped rows, each implied by a few rows: instead of
         // all of them, two sums with random weights are used.
         let are_summed = self.kept.len() >= SUMMED_FROM;

@@ -7,7 +7,7 @@ use crate::limits::FAR_FROM_A_METRE;
 
 /// Masses, a force and a motion in units of the mechanism, n_v each.
 #[derive(Clone)]
-pub(super) struct Scaled {
+pub(super) struct ScaledVectors {
     /// Units of the coordinates.
     pub(super) units: Vec<f64>,
     pub(super) mass: Vec<f64>,
@@ -15,7 +15,7 @@ pub(super) struct Scaled {
     pub(super) motion: Vec<f64>,
 }
 
-impl Scaled {
+impl ScaledVectors {
     /// No force and no motion, with these units and masses in them.
     pub(super) fn new(units: Vec<f64>, mass: Vec<f64>) -> Self {
         Self {

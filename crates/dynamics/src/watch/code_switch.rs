@@ -11,7 +11,7 @@ use model::System;
 
 use super::passage::Now;
 use super::pivots::are_delicate;
-use super::step_end::Watch;
+use super::step_end::Monitors;
 use crate::code::SceneCode;
 use crate::error::MotionFault;
 use crate::events::{Event, EventKind};
@@ -33,14 +33,14 @@ enum Phase {
 
 /// The state at the end of an accepted step.
 #[derive(Clone, Debug, Default)]
-struct Accepted {
+struct AcceptedState {
     t: f64,
     q: Vec<f64>,
     v: Vec<f64>,
     a: Vec<f64>,
 }
 
-impl Accepted {
+impl AcceptedState {
     fn take(&mut self, now: Now<'_>) {
         self.t = now.t;
         for (kept, x) in [
@@ -64,7 +64,7 @@ pub(crate) struct CodeSwitch<'m> {
     /// Number of accepted steps before generated code may be used again.
     patience: u64,
     /// The last two states accepted with generated code, the last one first, and their number.
-    accepted: [Accepted; 2],
+    accepted: [AcceptedState; 2],
     n_accepted: usize,
     departure: Option<Departure>,
     /// Scratch: accelerations of generated code that may be used again, n_v.
@@ -118,7 +118,7 @@ impl<'m> CodeSwitch<'m> {
         &mut self,
         state: State<'_>,
         a: &mut [f64],
-        (equations, watch): (&KeptEquations<'_>, &Watch),
+        (equations, watch): (&KeptEquations<'_>, &Monitors),
     ) -> bool {
         if !self.is_in_use() {
             return false;
@@ -158,7 +158,12 @@ impl<'m> CodeSwitch<'m> {
     }
 
     /// Velocities have jumped at t: earlier states cannot be used for predictions.
-    pub(crate) fn restart(&mut self, equations: &mut KeptEquations<'_>, watch: &mut Watch, t: f64) {
+    pub(crate) fn restart(
+        &mut self,
+        equations: &mut KeptEquations<'_>,
+        watch: &mut Monitors,
+        t: f64,
+    ) {
         if self.is_in_use() {
             self.n_accepted = 0;
             watch.passage.take(&mut equations.velocity, t);
@@ -172,8 +177,8 @@ impl<'m> CodeSwitch<'m> {
 
     /// Predicts singular configurations from the last two states accepted with generated code, for
     /// steps of the same length.
-    pub(crate) fn look_ahead(&self, equations: &KeptEquations<'_>, watch: &mut Watch) {
-        let [Accepted { t, q, v, a }, before] = &self.accepted;
+    pub(crate) fn look_ahead(&self, equations: &KeptEquations<'_>, watch: &mut Monitors) {
+        let [AcceptedState { t, q, v, a }, before] = &self.accepted;
         match self.n_accepted {
             2 => watch.look_ahead(equations, Now { t: *t, q, v, a }, t - before.t),
             _ => watch.delicate = None,
@@ -231,7 +236,7 @@ impl<'m> CodeSwitch<'m> {
         &mut self,
         t: f64,
         doubt: Doubt,
-        (equations, watch): (&KeptEquations<'_>, &Watch),
+        (equations, watch): (&KeptEquations<'_>, &Monitors),
     ) {
         self.phase = Phase::Waking;
         let since = match self.n_accepted {
@@ -255,12 +260,12 @@ impl<'m> CodeSwitch<'m> {
         &mut self,
         equations: &mut KeptEquations<'_>,
         manifold: &mut Manifold,
-        watch: &mut Watch,
+        watch: &mut Monitors,
     ) -> Result<(), MotionFault> {
         if self.phase != Phase::Waking {
             return Ok(());
         }
-        for Accepted { t, q, v, a } in self.accepted[..self.n_accepted].iter_mut().rev() {
+        for AcceptedState { t, q, v, a } in self.accepted[..self.n_accepted].iter_mut().rev() {
             manifold.settle(equations, *t, q)?;
             watch.passage.take(&mut equations.velocity, *t);
             watch.enter(equations, Now { t: *t, q, v, a });

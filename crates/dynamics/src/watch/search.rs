@@ -39,7 +39,7 @@ pub(super) fn foresee(equations: &KeptEquations<'_>, now: Now<'_>, expected: f64
         equations.at.mechanism.displace(out, &way);
     };
     let interval = [now.t, now.t + BEYOND * (expected - now.t)];
-    let mut search = Search::new(equations);
+    let mut search = SingularitySearch::new(equations);
     if search.is_promising(interval, &mut state) {
         search.find(interval, noise, state).map(|found| found.t)
     } else {
@@ -48,12 +48,12 @@ pub(super) fn foresee(equations: &KeptEquations<'_>, now: Now<'_>, expected: f64
 }
 
 /// Searches for singular configurations on kept rows.
-pub(crate) struct Search<'m> {
+pub(crate) struct SingularitySearch<'m> {
     at: Evaluation<'m>,
     rows: KeptRows,
 }
 
-impl<'m> Search<'m> {
+impl<'m> SingularitySearch<'m> {
     /// Uses the present rows, with separate storage.
     pub(crate) fn new(equations: &KeptEquations<'m>) -> Self {
         Self {

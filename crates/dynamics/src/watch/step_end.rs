@@ -53,7 +53,7 @@ impl From<MotionFault> for Next {
 }
 
 /// State of the monitors of a motion.
-pub(crate) struct Watch {
+pub(crate) struct Monitors {
     choice: RowChoice,
     pub(crate) passage: Passage,
     /// An event of the last accepted steps that has not been reported.
@@ -68,7 +68,7 @@ pub(crate) struct Watch {
     contradicted: Option<(f64, MotionFault)>,
 }
 
-impl Watch {
+impl Monitors {
     pub(crate) fn new(choice: &RowChoice, options: &MotionOptions) -> Self {
         Self {
             choice: choice.clone(),
@@ -142,7 +142,7 @@ impl Watch {
         }
     }
 
-    /// Whether [`Watch::judge_rows`] has a decision to make for freshly factored rows.
+    /// Whether [`Monitors::judge_rows`] has a decision to make for freshly factored rows.
     pub(crate) fn may_exchange(&self, equations: &mut KeptEquations<'_>) -> bool {
         exchange::may_be_due(equations, &self.choice)
     }
@@ -311,7 +311,7 @@ mod tests {
                 rtol,
                 ..MotionOptions::to(1.0)
             };
-            let watch = Watch::new(&RowChoice::Automatic, &options);
+            let watch = Monitors::new(&RowChoice::Automatic, &options);
             let is = |found: f64, expected: f64| (found / expected - 1.0).abs() < 1e-9;
             assert!(is(watch.nearest(), nearest), "{rtol}");
             assert!(is(watch.blind(), blind), "{rtol}");
@@ -323,7 +323,7 @@ mod tests {
     #[test]
     fn a_contradiction_just_ahead_is_why_a_run_stops() {
         for (ahead, is_why) in [(0.7e-9, true), (1.4e-9, false)] {
-            let mut watch = Watch::new(&RowChoice::Automatic, &MotionOptions::to(10.0));
+            let mut watch = Monitors::new(&RowChoice::Automatic, &MotionOptions::to(10.0));
             let fault = watch.no_way_over(5.0 + 10.0 * ahead);
             watch.contradicted = Some((5.0 + 10.0 * ahead, fault));
             assert_eq!(watch.contradiction(5.0).is_some(), is_why, "{ahead}");

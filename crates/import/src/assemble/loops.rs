@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, DVector, Isometry3, Point3, UnitQuaternion, Vector3};
 
 use super::State;
 use crate::limits::{DIFFERENCE, OPEN};
-use crate::mechanism::{Joint, Kind, Model};
-use crate::pose::{Placed, placing, rotation};
+use crate::mechanism::{Joint, JointKind, Model};
+use crate::pose::{JointPlacement, placing, rotation};
 
 /// A way in which a joint moves the links behind it.
 #[derive(Clone, Copy)]
@@ -113,13 +113,13 @@ impl Tree {
         for (k, joint) in model.joints.iter().enumerate().filter(|(k, _)| moves[*k]) {
             let mut add = |kind| freedoms.push(Freedom { joint: k, kind });
             match joint.kind {
-                Kind::Spherical => (0..3).for_each(|axis| add(Way::Turn(axis))),
+                JointKind::Spherical => (0..3).for_each(|axis| add(Way::Turn(axis))),
                 // Out of the plane the steps are taken back by the loops alone: planar joints of a
                 // tree stay where they are.
-                Kind::Fixed | Kind::Free | Kind::Planar => {}
+                JointKind::Fixed | JointKind::Free | JointKind::Planar => {}
                 kind => (0..kind.measures().len()).for_each(|c| add(Way::Coordinate(c))),
             }
-            if joint.kind == Kind::Free {
+            if joint.kind == JointKind::Free {
                 (0..3).for_each(|axis| add(Way::Shift(axis)));
                 (0..3).for_each(|axis| add(Way::Turn(axis)));
             }
@@ -164,7 +164,7 @@ impl Tree {
             .iter()
             .filter(|joint| !joint.places && joint.is_active);
         let mut gaps: Vec<Gap> = closing
-            .filter(|joint| joint.kind != Kind::Free)
+            .filter(|joint| joint.kind != JointKind::Free)
             .map(|joint| Gap {
                 name: joint.name.clone(),
                 miss: self.miss(model, joint, poses),
@@ -222,14 +222,14 @@ impl Tree {
             (at[1].rotation * frames[1]) * (at[0].rotation * frames[0]).inverse();
         let right = axes[0].dot(&(at[1].rotation * joint.cross));
         let (apart, angles) = match joint.kind {
-            Kind::Spherical => (apart, Vec::new()),
-            Kind::Revolute => (apart, tilt.as_slice().to_vec()),
-            Kind::Fixed => (apart, turned.scaled_axis().as_slice().to_vec()),
-            Kind::Translational => (across, turned.scaled_axis().as_slice().to_vec()),
-            Kind::Cylindrical | Kind::Screw(_) => (across, tilt.as_slice().to_vec()),
-            Kind::Planar => (apart - across, tilt.as_slice().to_vec()),
-            Kind::Universal => (apart, vec![right]),
-            Kind::Free => return Miss::default(),
+            JointKind::Spherical => (apart, Vec::new()),
+            JointKind::Revolute => (apart, tilt.as_slice().to_vec()),
+            JointKind::Fixed => (apart, turned.scaled_axis().as_slice().to_vec()),
+            JointKind::Translational => (across, turned.scaled_axis().as_slice().to_vec()),
+            JointKind::Cylindrical | JointKind::Screw(_) => (across, tilt.as_slice().to_vec()),
+            JointKind::Planar => (apart - across, tilt.as_slice().to_vec()),
+            JointKind::Universal => (apart, vec![right]),
+            JointKind::Free => return Miss::default(),
         };
         Miss {
             shares: apart.as_slice().to_vec(),
@@ -293,7 +293,7 @@ impl Tree {
         freedom: Freedom,
     ) -> Screw {
         let joint = &model.joints[freedom.joint];
-        let place = Placed::of(model, joint);
+        let place = JointPlacement::of(model, joint);
         let g = joint.links[0].map_or_else(Isometry3::identity, |link| displaced[link]);
         let point = (g * Point3::from(place.point)).coords;
         let axis = g.rotation * place.axis;
@@ -313,12 +313,12 @@ impl Tree {
         match (freedom.kind, joint.kind) {
             (Way::Turn(k), _) => turn(unit(k)),
             (Way::Shift(k), _) => shift(unit(k)),
-            (Way::Coordinate(0), Kind::Translational | Kind::Cylindrical) => shift(axis),
-            (Way::Coordinate(1), Kind::Universal) => {
+            (Way::Coordinate(0), JointKind::Translational | JointKind::Cylindrical) => shift(axis),
+            (Way::Coordinate(1), JointKind::Universal) => {
                 let first = rotation(place.axis, q[freedom.joint][0]);
                 turn(g.rotation * (first * place.cross))
             }
-            (Way::Coordinate(_), Kind::Screw(pitch)) => Screw {
+            (Way::Coordinate(_), JointKind::Screw(pitch)) => Screw {
                 advance: pitch / std::f64::consts::TAU,
                 ..turn(axis)
             },

@@ -5,17 +5,17 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use super::geom::Geoms;
 use super::reader::Reader;
 use super::source::Item;
-use crate::findings::{Counted, Fault, unit};
+use crate::findings::{Fault, NumberKind, unit};
 use crate::limits::{DEEPEST, PERPENDICULAR};
 use crate::mass::Mass;
-use crate::mechanism::{Frame, Joint, Kind, Link, Load};
+use crate::mechanism::{Frame, Joint, JointKind, Link, Load};
 use crate::solids::FRICTION;
 use crate::xml::Element;
 
 /// A joint of the file, in the axes of its body.
-struct Freedom {
+struct MjcfJoint {
     name: String,
-    kind: Kind,
+    kind: JointKind,
     point: Vector3<f64>,
     axis: Vector3<f64>,
     zero: f64,
@@ -71,14 +71,14 @@ impl<'a> Reader<'a, '_> {
         let mut items = Vec::new();
         self.source
             .items(element, Isometry3::identity(), class, &mut items, 0);
-        let freedoms: Vec<Freedom> = items
+        let freedoms: Vec<MjcfJoint> = items
             .iter()
             .filter(|item| matches!(item.element.name(), "joint" | "freejoint"))
             .filter_map(|item| self.freedom(item, &name, parent.is_none()))
             .collect();
         let mass = self.source.mass(element, &items);
         let held = element.attribute("gravcomp");
-        let held = held.and_then(|value| self.source.findings.number(&value, Counted::Not));
+        let held = held.and_then(|value| self.source.findings.number(&value, NumberKind::Other));
         let link = self.chain(&name, own, freedoms, parent);
         self.model.links[link].mass = mass;
         self.model.links[link].held_weight = held.unwrap_or(0.0);
@@ -104,7 +104,7 @@ impl<'a> Reader<'a, '_> {
         &mut self,
         name: &str,
         own: Isometry3<f64>,
-        freedoms: Vec<Freedom>,
+        freedoms: Vec<MjcfJoint>,
         parent: Option<usize>,
     ) -> usize {
         let pose = self.model.pose(parent) * own;
@@ -124,16 +124,18 @@ impl<'a> Reader<'a, '_> {
             let mut consumed = 1;
             if let Some(second) = freedoms.get(at + 1) {
                 let pair = match (first.kind, second.kind) {
-                    (Kind::Revolute, Kind::Revolute)
+                    (JointKind::Revolute, JointKind::Revolute)
                         if first.point == second.point
                             && first.axis.dot(&second.axis).abs() <= PERPENDICULAR =>
                     {
                         joint.cross = second.axis;
-                        Some(Kind::Universal)
+                        Some(JointKind::Universal)
                     }
-                    (Kind::Translational, Kind::Revolute) if first.axis == second.axis => {
+                    (JointKind::Translational, JointKind::Revolute)
+                        if first.axis == second.axis =>
+                    {
                         joint.points = [second.point; 2];
-                        Some(Kind::Cylindrical)
+                        Some(JointKind::Cylindrical)
                     }
                     _ => None,
                 };
@@ -153,7 +155,7 @@ impl<'a> Reader<'a, '_> {
             let link = self.link(name.to_owned(), pose);
             let points = [own.translation.vector, Vector3::zeros()];
             let axes = [own.rotation * Vector3::z(), Vector3::z()];
-            let weld = Joint::new(name, Kind::Fixed, [parent, Some(link)], points, axes);
+            let weld = Joint::new(name, JointKind::Fixed, [parent, Some(link)], points, axes);
             self.model.joints.push(weld);
             return link;
         }
@@ -193,7 +195,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// A joint of a body; `None` if it cannot be read.
-    fn freedom(&mut self, item: &Item<'a>, body: &str, is_outer: bool) -> Option<Freedom> {
+    fn freedom(&mut self, item: &Item<'a>, body: &str, is_outer: bool) -> Option<MjcfJoint> {
         let element = item.element;
         let name = element
             .attribute("name")
@@ -231,10 +233,10 @@ impl<'a> Reader<'a, '_> {
             ["range", "limited", "frictionloss", "springdamper"].map(|key| attributes.get(key));
         let word = kind.as_ref().map_or("hinge", |value| value.text.trim());
         let kind = match (element.name(), word) {
-            ("freejoint", _) | (_, "free") => Kind::Free,
-            (_, "hinge") => Kind::Revolute,
-            (_, "slide") => Kind::Translational,
-            (_, "ball") => Kind::Spherical,
+            ("freejoint", _) | (_, "free") => JointKind::Free,
+            (_, "hinge") => JointKind::Revolute,
+            (_, "slide") => JointKind::Translational,
+            (_, "ball") => JointKind::Spherical,
             (_, other) => {
                 let shown: String = other.chars().take(40).collect();
                 let message = format!("joint `{name}`: there is no type `{shown}`");
@@ -242,33 +244,36 @@ impl<'a> Reader<'a, '_> {
                 return None;
             }
         };
-        if kind == Kind::Free && !is_outer {
+        if kind == JointKind::Free && !is_outer {
             let message = format!("joint `{name}`: only bodies of the world may be free");
             self.source.findings.of(Fault::Structure, element, message);
             return None;
         }
         let is_free_element = element.name() == "freejoint";
-        let point = pos.and_then(|value| self.source.findings.vector(&value, Counted::Length));
+        let point = pos.and_then(|value| self.source.findings.vector(&value, NumberKind::Length));
         let axis = match axis {
-            Some(value) if matches!(kind, Kind::Revolute | Kind::Translational) => {
+            Some(value) if matches!(kind, JointKind::Revolute | JointKind::Translational) => {
                 self.source.findings.direction(&value)?
             }
             _ => Vector3::z(),
         };
-        let angle = if kind == Kind::Revolute {
+        let angle = if kind == JointKind::Revolute {
             self.source.compiler.angle
         } else {
             1.0
         };
         let mut number = |value: Option<crate::xml::Value<'a>>| {
-            let number =
-                value.map(|value| self.source.findings.numbers(&value, [1, 16], Counted::Not));
+            let number = value.map(|value| {
+                self.source
+                    .findings
+                    .numbers(&value, [1, 16], NumberKind::Other)
+            });
             number.flatten().unwrap_or_else(|| vec![0.0])
         };
         let of_angle = [&zero, &reference, &range].map(|value| (*value).clone());
         let [zero, reference] = [number(zero)[0] * angle, number(reference)[0] * angle];
         let [stiffness, damping, armature] = [number(stiffness), number(damping), number(armature)];
-        if kind == Kind::Revolute && self.source.compiler.angle != 1.0 {
+        if kind == JointKind::Revolute && self.source.compiler.angle != 1.0 {
             for value in of_angle.iter().flatten() {
                 let words = value.text.split_whitespace();
                 let angles: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
@@ -297,7 +302,10 @@ impl<'a> Reader<'a, '_> {
             range.is_some() || limited.as_ref().is_some_and(|v| v.text.trim() == "true");
         let is_off = limited.as_ref().is_some_and(|v| v.text.trim() == "false");
         let is_on = limited.as_ref().is_some_and(|v| v.text.trim() == "true");
-        if has_range && !is_off && (self.source.compiler.auto_limits || is_on) && kind != Kind::Free
+        if has_range
+            && !is_off
+            && (self.source.compiler.auto_limits || is_on)
+            && kind != JointKind::Free
         {
             leave("limits of joints");
         }
@@ -319,7 +327,7 @@ impl<'a> Reader<'a, '_> {
             self.source.findings.of(Fault::Range, element, message);
             return None;
         }
-        if kind == Kind::Free {
+        if kind == JointKind::Free {
             if load
                 != (Load {
                     reference,
@@ -331,7 +339,7 @@ impl<'a> Reader<'a, '_> {
             }
             load = Load::default();
         }
-        if kind == Kind::Spherical {
+        if kind == JointKind::Spherical {
             if load.damping != 0.0 {
                 leave("dampers of spherical joints: accelerations differ where they turn");
             }
@@ -349,7 +357,7 @@ impl<'a> Reader<'a, '_> {
         } else {
             unit(item.frame.rotation * axis)
         };
-        Some(Freedom {
+        Some(MjcfJoint {
             name,
             kind,
             point,

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-use crate::findings::{Counted, Fault, Findings, unit};
+use crate::findings::{Fault, Findings, NumberKind, unit};
 use crate::pose::{along_z, quaternion, rotation};
 use crate::xml::{Element, Value};
 
@@ -68,19 +68,23 @@ impl Compiler {
             ("inertiafromgeom", "true") => self.from_geoms = FromGeoms::Always,
             ("inertiafromgeom", "false") => self.from_geoms = FromGeoms::Never,
             ("inertiagrouprange", _) => {
-                if let Some(groups) = findings.numbers(value, [2, 2], Counted::Not) {
+                if let Some(groups) = findings.numbers(value, [2, 2], NumberKind::Other) {
                     self.groups = [groups[0], groups[1]];
                 }
             }
             ("boundmass", _) => {
-                self.least_mass = findings.not_negative(value, Counted::Not).unwrap_or(0.0);
+                self.least_mass = findings
+                    .not_negative(value, NumberKind::Other)
+                    .unwrap_or(0.0);
             }
             ("boundinertia", _) => {
-                self.least_inertia = findings.not_negative(value, Counted::Not).unwrap_or(0.0);
+                self.least_inertia = findings
+                    .not_negative(value, NumberKind::Other)
+                    .unwrap_or(0.0);
             }
             ("balanceinertia", _) => self.balances = findings.boolean(value).unwrap_or(false),
             ("settotalmass", _) => {
-                let total = findings.number(value, Counted::Not);
+                let total = findings.number(value, NumberKind::Other);
                 self.total_mass = total.filter(|total| *total > 0.0);
             }
             ("autolimits", _) => self.auto_limits = findings.boolean(value).unwrap_or(true),
@@ -100,7 +104,7 @@ impl Compiler {
         get: impl Fn(&str) -> Option<Value<'a>>,
         findings: &mut Findings,
     ) -> Isometry3<f64> {
-        let position = get("pos").and_then(|value| findings.vector(&value, Counted::Length));
+        let position = get("pos").and_then(|value| findings.vector(&value, NumberKind::Length));
         let turned = self.orientation(get, findings);
         Isometry3::from_parts(position.unwrap_or_default().into(), turned)
     }
@@ -138,7 +142,7 @@ impl Compiler {
         };
         let finite = |x: f64| x.is_finite() && x > 0.0;
         if let Some(value) = get("quat") {
-            let q = findings.numbers(&value, [4, 4], Counted::Direction)?;
+            let q = findings.numbers(&value, [4, 4], NumberKind::Direction)?;
             let largest = q.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
             if !finite(largest) {
                 no_direction(&value, findings);
@@ -154,7 +158,7 @@ impl Compiler {
             ]));
         }
         if let Some(value) = get("axisangle") {
-            let n = findings.numbers(&value, [4, 4], Counted::Direction)?;
+            let n = findings.numbers(&value, [4, 4], NumberKind::Direction)?;
             let axis = Vector3::new(n[0], n[1], n[2]);
             if !finite(axis.amax()) {
                 no_direction(&value, findings);
@@ -164,7 +168,7 @@ impl Compiler {
             return Some(rotation(unit(axis), n[3] * self.angle));
         }
         if let Some(value) = get("euler") {
-            let angles = findings.numbers(&value, [3, 3], Counted::Direction)?;
+            let angles = findings.numbers(&value, [3, 3], NumberKind::Direction)?;
             self.look_for_radians(&value, &angles, findings);
             let mut turned = UnitQuaternion::identity();
             for ((axis, is_fixed), angle) in self.euler.iter().zip(angles) {
@@ -180,7 +184,7 @@ impl Compiler {
             return Some(turned);
         }
         if let Some(value) = get("xyaxes") {
-            let n = findings.numbers(&value, [6, 6], Counted::Direction)?;
+            let n = findings.numbers(&value, [6, 6], NumberKind::Direction)?;
             let (x, y) = (
                 Vector3::new(n[0], n[1], n[2]),
                 Vector3::new(n[3], n[4], n[5]),

@@ -3,8 +3,8 @@
 use nalgebra::{Isometry3, Point3, Vector3};
 
 use super::reader::Reader;
-use crate::findings::{Counted, Fault};
-use crate::mechanism::{Coupling, Joint, Kind};
+use crate::findings::{Fault, NumberKind};
+use crate::mechanism::{Coupling, Joint, JointKind};
 use crate::pose::quaternion;
 use crate::xml::{Element, Value};
 
@@ -87,9 +87,9 @@ impl<'a> Reader<'a, '_> {
     fn closure(&mut self, element: Element<'a>, name: String) -> Option<Joint> {
         let is_weld = element.name() == "weld";
         let kind = if is_weld {
-            Kind::Fixed
+            JointKind::Fixed
         } else {
-            Kind::Spherical
+            JointKind::Spherical
         };
         let is_active = self.is_active(element);
         let joint = |links, points, frames| Joint {
@@ -122,7 +122,7 @@ impl<'a> Reader<'a, '_> {
             return None;
         }
         let anchor = match element.attribute("anchor") {
-            Some(value) => Some(self.source.findings.vector(&value, Counted::Length)?),
+            Some(value) => Some(self.source.findings.vector(&value, NumberKind::Length)?),
             None => None,
         };
         let [a, b] = [first, second].map(|link| self.model.pose(link));
@@ -137,7 +137,11 @@ impl<'a> Reader<'a, '_> {
         }
         let given = element.attribute("relpose");
         let given = match given {
-            Some(value) => Some(self.source.findings.numbers(&value, [7, 7], Counted::Not)?),
+            Some(value) => Some(
+                self.source
+                    .findings
+                    .numbers(&value, [7, 7], NumberKind::Other)?,
+            ),
             None => None,
         };
         // A quaternion of zeros stands for the relation at the described pose.
@@ -188,7 +192,10 @@ impl<'a> Reader<'a, '_> {
         };
         let mut coefficients = vec![0.0, 1.0, 0.0, 0.0, 0.0];
         if let Some(value) = element.attribute("polycoef") {
-            let given = self.source.findings.numbers(&value, [1, 5], Counted::Not)?;
+            let given = self
+                .source
+                .findings
+                .numbers(&value, [1, 5], NumberKind::Other)?;
             coefficients[..given.len()].copy_from_slice(&given);
         }
         let is_active = self.is_active(element);
@@ -216,7 +223,10 @@ impl<'a> Reader<'a, '_> {
         };
         let mut given = [0.0, 1.0, 0.0, 0.0, 0.0];
         if let Some(value) = element.attribute("polycoef") {
-            let numbers = self.source.findings.numbers(&value, [1, 5], Counted::Not)?;
+            let numbers = self
+                .source
+                .findings
+                .numbers(&value, [1, 5], NumberKind::Other)?;
             given[..numbers.len()].copy_from_slice(&numbers);
         }
         let (x, y, coefficients) = match (first.as_slice(), second.as_deref()) {
@@ -276,7 +286,10 @@ impl<'a> Reader<'a, '_> {
                 return None;
             };
             let joint = self.coordinate(&joint)?;
-            let coefficient = self.source.findings.number(&coefficient, Counted::Not)?;
+            let coefficient = self
+                .source
+                .findings
+                .number(&coefficient, NumberKind::Other)?;
             if coefficient != 0.0 {
                 out.push((joint, coefficient));
             }

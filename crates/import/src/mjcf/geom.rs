@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 
 use super::source::{Item, Source};
-use crate::findings::{Counted, Fault, Findings, unit};
+use crate::findings::{Fault, Findings, NumberKind, unit};
 use crate::limits::DENSITY;
 use crate::mass::{Mass, Solid};
 use crate::pose::along_z;
@@ -18,7 +18,7 @@ impl Geoms {
         value: &Value,
         findings: &mut Findings,
     ) -> Option<(Vector3<f64>, UnitQuaternion<f64>, f64)> {
-        let n = findings.numbers(value, [6, 6], Counted::Not)?;
+        let n = findings.numbers(value, [6, 6], NumberKind::Other)?;
         let (a, b) = (
             Vector3::new(n[0], n[1], n[2]),
             Vector3::new(n[3], n[4], n[5]),
@@ -76,18 +76,18 @@ impl<'a> Source<'a, '_> {
                 .and_then(|k| values[k].clone())
         };
         if let Some(group) = get("group") {
-            let group = self.findings.number(&group, Counted::Not)?;
+            let group = self.findings.number(&group, NumberKind::Other)?;
             let [first, last] = self.compiler.groups;
             if group < first || group > last {
                 return None;
             }
         }
         let given = match get("mass") {
-            Some(value) => Some(self.findings.not_negative(&value, Counted::Not)?),
+            Some(value) => Some(self.findings.not_negative(&value, NumberKind::Other)?),
             None => None,
         };
         let density = match get("density") {
-            Some(value) => self.findings.not_negative(&value, Counted::Not)?,
+            Some(value) => self.findings.not_negative(&value, NumberKind::Other)?,
             None => DENSITY,
         };
         if given == Some(0.0) || (given.is_none() && density == 0.0) {
@@ -113,7 +113,7 @@ impl<'a> Source<'a, '_> {
             return None;
         }
         let size = match get("size") {
-            Some(value) => self.findings.numbers(&value, [1, 3], Counted::Not)?,
+            Some(value) => self.findings.numbers(&value, [1, 3], NumberKind::Other)?,
             None => Vec::new(),
         };
         let mut size = size;

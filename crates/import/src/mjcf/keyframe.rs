@@ -1,15 +1,15 @@
 //! `<keyframe>`: states by name.
 
 use super::reader::Reader;
-use crate::findings::{Counted, Fault};
-use crate::mechanism::{Kind, State};
+use crate::findings::{Fault, NumberKind};
+use crate::mechanism::{JointKind, Keyframe};
 use crate::xml::Element;
 
 /// Numbers of coordinates and velocities that a joint has in a keyframe.
-fn counts(kind: Kind) -> (usize, usize) {
+fn counts(kind: JointKind) -> (usize, usize) {
     match kind {
-        Kind::Free => (7, 6),
-        Kind::Spherical => (4, 3),
+        JointKind::Free => (7, 6),
+        JointKind::Spherical => (4, 3),
         _ => (1, 1),
     }
 }
@@ -29,9 +29,9 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    fn state(&mut self, element: Element<'a>, name: String) -> Option<State> {
+    fn state(&mut self, element: Element<'a>, name: String) -> Option<Keyframe> {
         let slots = self.slots.clone();
-        let kinds: Vec<Kind> = slots
+        let kinds: Vec<JointKind> = slots
             .iter()
             .map(|(joint, _)| self.model.joints[*joint].kind)
             .collect();
@@ -41,25 +41,25 @@ impl<'a> Reader<'a, '_> {
             Some(value) => self
                 .source
                 .findings
-                .numbers(&value, [n, n], Counted::Not)
+                .numbers(&value, [n, n], NumberKind::Other)
                 .map(Some),
             None => Some(None),
         };
         let (q, v) = (read("qpos", n_q)?, read("qvel", n_v)?);
         let mut out_q = rest(&self.model.joints, |joint| match joint.kind {
-            Kind::Free => {
+            JointKind::Free => {
                 let pose = self.model.pose(joint.links[1]);
                 let (p, e) = (pose.translation.vector, pose.rotation);
                 vec![p.x, p.y, p.z, e.w, e.i, e.j, e.k]
             }
-            Kind::Spherical => vec![1.0, 0.0, 0.0, 0.0],
-            Kind::Fixed | Kind::Planar => Vec::new(),
+            JointKind::Spherical => vec![1.0, 0.0, 0.0, 0.0],
+            JointKind::Fixed | JointKind::Planar => Vec::new(),
             kind => joint.zero[..kind.measures().len()].to_vec(),
         });
         let mut out_v = rest(&self.model.joints, |joint| match joint.kind {
-            Kind::Free => vec![0.0; 6],
-            Kind::Spherical => vec![0.0; 3],
-            Kind::Fixed | Kind::Planar => Vec::new(),
+            JointKind::Free => vec![0.0; 6],
+            JointKind::Spherical => vec![0.0; 3],
+            JointKind::Fixed | JointKind::Planar => Vec::new(),
             kind => vec![0.0; kind.measures().len()],
         });
         let (mut at_q, mut at_v) = (0, 0);
@@ -80,7 +80,7 @@ impl<'a> Reader<'a, '_> {
             }
             (at_q, at_v) = (at_q + n, at_v + m);
         }
-        Some(State {
+        Some(Keyframe {
             name,
             line: element.line(),
             q: out_q,

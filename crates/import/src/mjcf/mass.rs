@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Matrix3, Vector3};
 
 use super::compiler::FromGeoms;
 use super::source::{Item, Source};
-use crate::findings::{Counted, Fault};
+use crate::findings::{Fault, NumberKind};
 use crate::mass::Mass;
 use crate::xml::Element;
 
@@ -28,10 +28,10 @@ impl<'a> Source<'a, '_> {
             self.findings.missing(element, "a `mass`");
             return None;
         };
-        let mass = self.findings.not_negative(&mass, Counted::Not)?;
+        let mass = self.findings.not_negative(&mass, NumberKind::Other)?;
         // The centre of mass is no place of a joint: its digits say nothing of them.
         let centre = match get("pos") {
-            Some(value) => self.findings.vector(&value, Counted::Not)?,
+            Some(value) => self.findings.vector(&value, NumberKind::Other)?,
             None => Vector3::zeros(),
         };
         let digits = self.findings.directions;
@@ -39,12 +39,12 @@ impl<'a> Source<'a, '_> {
         self.findings.directions = digits;
         let tensor = match (get("fullinertia"), get("diaginertia")) {
             (Some(full), None) => {
-                let n = self.findings.numbers(&full, [6, 6], Counted::Not)?;
+                let n = self.findings.numbers(&full, [6, 6], NumberKind::Other)?;
                 let [xx, yy, zz, xy, xz, yz] = [n[0], n[1], n[2], n[3], n[4], n[5]];
                 Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
             }
             (None, Some(diagonal)) => {
-                Matrix3::from_diagonal(&self.findings.vector(&diagonal, Counted::Not)?)
+                Matrix3::from_diagonal(&self.findings.vector(&diagonal, NumberKind::Other)?)
             }
             (Some(full), Some(_)) => {
                 let message = "`fullinertia` and `diaginertia` exclude each other";

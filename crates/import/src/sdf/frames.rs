@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::Isometry3;
 
-use crate::findings::{Counted, Fault, Findings};
+use crate::findings::{Fault, Findings, NumberKind};
 use crate::mechanism::Link;
 use crate::pose::quaternion;
 use crate::solids::roll_pitch_yaw;
@@ -43,7 +43,7 @@ impl Frames {
     pub(super) fn read(model: Element, links: &[String], findings: &mut Findings) -> Self {
         let mut frames = Self::default();
         if let Some(pose) = model.child("pose") {
-            frames.model = pose_of(pose, Counted::Length, findings).unwrap_or_default();
+            frames.model = pose_of(pose, NumberKind::Length, findings).unwrap_or_default();
         }
         let mut numbers = links.iter().enumerate();
         for child in model.children() {
@@ -77,7 +77,7 @@ impl Frames {
                 What::Frame(attached) => attached.clone().filter(|name| !name.is_empty()),
             });
             let base = base.filter(|name| !matches!(name.as_str(), "__model__" | "world"));
-            let own = pose.and_then(|pose| pose_of(pose, Counted::Length, findings));
+            let own = pose.and_then(|pose| pose_of(pose, NumberKind::Length, findings));
             let own = own.unwrap_or_default();
             let name = name.text.trim().to_owned();
             let name = match what {
@@ -198,7 +198,7 @@ impl Frames {
 /// Six numbers: place, and angles about fixed axes; or seven with a quaternion (x, y, z, w).
 pub(super) fn pose_of(
     element: Element,
-    counted: Counted,
+    counted: NumberKind,
     findings: &mut Findings,
 ) -> Option<Isometry3<f64>> {
     let value = element.text();
@@ -213,8 +213,8 @@ pub(super) fn pose_of(
         return Some(Isometry3::identity());
     }
     // Digits of lengths and of angles are different ones.
-    let numbers = findings.numbers(&value, [n, n], Counted::Not)?;
-    if counted != Counted::Not {
+    let numbers = findings.numbers(&value, [n, n], NumberKind::Other)?;
+    if counted != NumberKind::Other {
         for (k, word) in value.text.split_whitespace().enumerate() {
             if k < 3 {
                 findings.lengths.see(word);

@@ -9,7 +9,7 @@ mod sdf;
 mod urdf;
 
 use model::Registry;
-use pfaff_import::{Folder, Imported, Options, Refusal};
+use pfaff_import::{Folder, ImportedScene, Options, Refusal};
 use scene::Scene;
 
 /// A file of this folder.
@@ -31,7 +31,7 @@ fn options_of(file: &str) -> Options {
 }
 
 /// A file of this folder as a scene.
-fn imported(file: &str) -> Imported {
+fn imported(file: &str) -> ImportedScene {
     let done = pfaff_import::import(file, &text_of(file), &options_of(file));
     done.unwrap_or_else(|refusal| panic!("{file}: {:?}", refusal.diagnostics))
 }
@@ -42,7 +42,7 @@ fn refused(text: &str) -> Refusal {
 }
 
 /// What the reader of scenes makes of it.
-fn read(imported: &Imported) -> Scene {
+fn read(imported: &ImportedScene) -> Scene {
     let read = scene::read("imported.toml", &imported.scene, &Registry::standard());
     read.unwrap_or_else(|e| panic!("{e:?}\n{}", imported.scene))
 }
@@ -84,7 +84,7 @@ fn body(inner: &str) -> String {
 }
 
 /// A text as a scene.
-fn import_text(text: &str, options: &Options) -> Imported {
+fn import_text(text: &str, options: &Options) -> ImportedScene {
     let done = pfaff_import::import("file.xml", text, options);
     done.unwrap_or_else(|refusal| panic!("{:?}", refusal.diagnostics))
 }

@@ -1,6 +1,6 @@
 //! SDF: what becomes of each part of a file, digits, and axes that are nearly parallel.
 
-use pfaff_import::{Axes, Imported, Options};
+use pfaff_import::{Axes, ImportedScene, Options};
 
 use super::{first, imported, numbers, options_of, read, refused, text_of, value};
 
@@ -102,7 +102,7 @@ fn assumptions_of_the_format_are_told() {
     assert_eq!(done.omissions[0].kind, "contacts of links");
 }
 
-fn with_axes(file: &str, axes: Axes) -> Imported {
+fn with_axes(file: &str, axes: Axes) -> ImportedScene {
     let options = Options {
         axes,
         ..options_of(file)
@@ -128,7 +128,7 @@ fn digits_give_the_tolerance() {
 
 #[test]
 fn tilted_axes_are_told() {
-    let told = |done: &Imported, name: &str, off: &str, end: &str| {
+    let told = |done: &ImportedScene, name: &str, off: &str, end: &str| {
         let found = done.remarks.iter().any(|r| {
             r.starts_with(&format!("The axis of `{name}` is tilted by {off} rad"))
                 && r.ends_with(end)

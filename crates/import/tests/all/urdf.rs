@@ -1,6 +1,6 @@
 //! URDF: what becomes of each part of a file, loops, and poses at which they are closed.
 
-use pfaff_import::{Base, Imported, Options, Refusal};
+use pfaff_import::{Base, ImportedScene, Options, Refusal};
 
 use super::{first, imported, numbers, options_of, read, refused, text_of, value};
 
@@ -30,7 +30,7 @@ fn every_file_is_a_scene() {
     }
 }
 
-fn with_loops(name: &str, pose: &[(&str, f64)]) -> Result<Imported, Box<Refusal>> {
+fn with_loops(name: &str, pose: &[(&str, f64)]) -> Result<ImportedScene, Box<Refusal>> {
     let file = format!("urdf/{name}.urdf");
     let yaml = format!("urdf/{name}.yaml");
     let options = Options {
@@ -117,7 +117,7 @@ fn loops_in_gazebo_are_closed() {
 /// A triangle with sides 3, 4 and 5 has a right angle: its corner is at (1.8, ±2.4).
 #[test]
 fn loops_are_closed_from_a_guess() {
-    let angle = |imported: &Imported, body| {
+    let angle = |imported: &ImportedScene, body| {
         let turned = value(&imported.scene, "body", body, "orientation").expect("turned");
         let (_, q) = turned.split_once("quaternion = ").expect("a quaternion");
         let q = numbers(q);

@@ -40,13 +40,13 @@
 //! values up to 95). All this is asserted in `order_conditions`. The tables were computed with 40
 //! digits from the rounded table of the method.
 
-use super::Stages;
+use super::Dop853Stages;
 use super::tableau::{A, C, D, FREE, STAGES, STEP_STAGES};
 use crate::error::Cause;
 use crate::method::{Dense, Ends};
 use crate::ode::{Ode, evaluate};
 
-impl<O: Ode> Dense<O> for Stages {
+impl<O: Ode> Dense<O> for Dop853Stages {
     fn interpolate(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]) {
         self.evaluate_polynomial(&weights(&FREE, theta), ends, out);
     }
@@ -75,7 +75,7 @@ impl<O: Ode> Dense<O> for Stages {
     }
 }
 
-impl Stages {
+impl Dop853Stages {
     fn evaluate_polynomial<const S: usize>(
         &self,
         w: &Weights<S>,

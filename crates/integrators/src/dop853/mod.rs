@@ -24,10 +24,10 @@ use tableau::{STAGES, STEP_STAGES};
 pub struct Dop853;
 
 impl<O: Ode> Method<O> for Dop853 {
-    type Stepper = Stages;
+    type Stepper = Dop853Stages;
 
-    fn stepper(&self, ode: &O) -> Stages {
-        Stages::new(ode.dim())
+    fn stepper(&self, ode: &O) -> Dop853Stages {
+        Dop853Stages::new(ode.dim())
     }
 }
 
@@ -43,7 +43,7 @@ const CONTROL: ControlConstants = ControlConstants {
 /// Stages and scratch; stages 1 and 13 are the derivatives at the ends of the step, kept by the
 /// caller.
 #[derive(Debug)]
-pub struct Stages {
+pub struct Dop853Stages {
     control: Control,
     /// Stages 2 to 12 of the last trial.
     k: [Vec<f64>; 11],
@@ -53,7 +53,7 @@ pub struct Stages {
     y: Vec<f64>,
 }
 
-impl Stages {
+impl Dop853Stages {
     /// Allocates storage for `dim` components.
     pub(crate) fn new(dim: usize) -> Self {
         let zeros = || vec![0.0; dim];

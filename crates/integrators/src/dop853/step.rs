@@ -1,6 +1,6 @@
 //! One trial step and its estimated error.
 
-use super::Stages;
+use super::Dop853Stages;
 use super::tableau::{A, C, E3, E5, STEP_STAGES};
 use crate::combine::combine;
 use crate::control::StepControl;
@@ -9,7 +9,7 @@ use crate::method::{Start, Stepper, Trial, widest_gap};
 use crate::ode::{Ode, evaluate};
 use crate::statistics::Statistics;
 
-impl<O: Ode> Stepper<O> for Stages {
+impl<O: Ode> Stepper<O> for Dop853Stages {
     fn order(&self) -> i32 {
         8
     }
@@ -30,7 +30,7 @@ impl<O: Ode> Stepper<O> for Stages {
         y1: &mut [f64],
         statistics: &mut Statistics,
     ) -> Result<(), Cause<O::Error>> {
-        let mut step = Step {
+        let mut step = Dop853Step {
             ode,
             trial,
             start,
@@ -106,14 +106,14 @@ impl<O: Ode> Stepper<O> for Stages {
 }
 
 /// A step on trial.
-struct Step<'a, O> {
+struct Dop853Step<'a, O> {
     ode: &'a mut O,
     trial: &'a Trial<'a>,
     start: &'a Start<'a>,
     statistics: &'a mut Statistics,
 }
 
-impl<O: Ode> Step<'_, O> {
+impl<O: Ode> Dop853Step<'_, O> {
     /// Writes `y0 + h·Σ a_sj·k_j` to y; `used` are the j with coefficients, `k` begins with stage
     /// 1.
     #[inline]

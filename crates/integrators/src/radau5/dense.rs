@@ -17,7 +17,7 @@
 //! derivative at θ = 0, ¼, ¾ and 1 equals the defects of u, `h·f(t, u) − u'`, filtered in the same
 //! way; two extra evaluations (the same idea as in `dopri5`).
 
-use super::Stages;
+use super::Radau5Stages;
 use super::newton::dot;
 use super::tableau::{C, REAL, lagrange, lagrange_derivative};
 use crate::error::Cause;
@@ -28,7 +28,7 @@ use crate::ode::{evaluate, finite};
 /// Relative positions of the defects.
 const PLACES: [f64; 4] = [0.0, 0.25, 0.75, 1.0];
 
-impl<O: Implicit> Dense<O> for Stages {
+impl<O: Implicit> Dense<O> for Radau5Stages {
     fn interpolate(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]) {
         self.quartic(ends).value(theta, out);
     }
@@ -74,7 +74,7 @@ impl<O: Implicit> Dense<O> for Stages {
     }
 }
 
-impl Stages {
+impl Radau5Stages {
     fn quartic<'a>(&'a self, ends: &'a Ends<'a>) -> Quartic<'a> {
         Quartic {
             ends,

@@ -34,10 +34,10 @@ use crate::method::Method;
 pub struct Radau5;
 
 impl<O: Implicit> Method<O> for Radau5 {
-    type Stepper = Stages;
+    type Stepper = Radau5Stages;
 
-    fn stepper(&self, ode: &O) -> Stages {
-        Stages::new(ode.dim())
+    fn stepper(&self, ode: &O) -> Radau5Stages {
+        Radau5Stages::new(ode.dim())
     }
 }
 
@@ -52,7 +52,7 @@ const CONTROL: ControlConstants = ControlConstants {
 
 /// Stages, state of the matrices, and memory of the last steps.
 #[derive(Debug)]
-pub struct Stages {
+pub struct Radau5Stages {
     control: Control,
     /// z_i = Y_i − y0 of the last trial.
     z: [Vec<f64>; 3],
@@ -105,7 +105,7 @@ struct Matrices {
     is_worn: bool,
 }
 
-impl Stages {
+impl Radau5Stages {
     fn new(dim: usize) -> Self {
         let zeros = || vec![0.0; dim];
         let three = || std::array::from_fn(|_| zeros());

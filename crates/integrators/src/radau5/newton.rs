@@ -9,7 +9,7 @@
 //!
 //! The stopping criterion is in `convergence`.
 
-use super::Stages;
+use super::Radau5Stages;
 use super::scale::set_scale;
 use super::tableau::{C, COMPLEX, REAL, T, T_INVERSE, lagrange};
 use crate::control::weighted_square_sum;
@@ -22,7 +22,7 @@ use crate::statistics::Statistics;
 
 /// Iterations stop if their increments are below this many units of rounding of the state.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
-impl Stages {
+impl Radau5Stages {
     /// Starting values: the collocation polynomial of the last step, continued; zero if there is
     /// none.
     pub(super) fn predict(&mut self, h: f64) {

@@ -3,7 +3,7 @@
 use super::newton::dot;
 use super::scale::set_scale;
 use super::tableau::{C, COMPLEX, E, REAL};
-use super::{Matrices, Stages};
+use super::{Matrices, Radau5Stages};
 use crate::control::{StepControl, weighted_rms};
 use crate::convergence::{Convergence, GOOD_RATE, MAX_ITERATIONS, Verdict};
 use crate::error::Cause;
@@ -20,7 +20,7 @@ const WORTH_GROWING: f64 = 1.2;
 /// Smallest error with which the predictive controller compares.
 const SMALLEST_REFERENCE: f64 = 1e-2;
 
-impl Stages {
+impl Radau5Stages {
     /// Computes J and its factors for this trial, if new ones are needed.
     fn prepare_matrices<O: Implicit>(
         &mut self,
@@ -67,7 +67,7 @@ impl Stages {
     }
 }
 
-impl<O: Implicit> Stepper<O> for Stages {
+impl<O: Implicit> Stepper<O> for Radau5Stages {
     fn order(&self) -> i32 {
         5
     }
@@ -205,7 +205,7 @@ impl<O: Implicit> Stepper<O> for Stages {
     }
 }
 
-impl Stages {
+impl Radau5Stages {
     /// (n + 2·n_max)/(1 + 2·n_max) for n iterations: the cost of the last step relative to its
     /// smallest possible cost.
     fn effort(&self) -> f64 {

@@ -1,7 +1,7 @@
 //! The method without step control: its coefficients, its stability function, its order, its dense
 //! output.
 
-use super::Stages;
+use super::Radau5Stages;
 use super::dense::{defect_weights, start_weight, start_weight_derivative};
 use super::tableau::{C, COMPLEX, E, REAL, T, T_INVERSE, lagrange, lagrange_derivative};
 use crate::dense_implicit::{DenseImplicit, Differences, Jacobian};
@@ -94,7 +94,7 @@ fn polynomials_are_dual_to_their_places() {
 /// Steps of a given size, without control.
 struct FixedSteps<O> {
     ode: O,
-    stages: Stages,
+    stages: Radau5Stages,
     statistics: Statistics,
     y: Vec<f64>,
     f: Vec<f64>,
@@ -111,7 +111,7 @@ where
         ode.rhs(0.0, y, &mut f).expect("f is defined");
         Self {
             ode,
-            stages: Stages::new(y.len()),
+            stages: Radau5Stages::new(y.len()),
             statistics: Statistics::default(),
             y: y.to_vec(),
             f,

@@ -21,7 +21,7 @@
 //! steps are more accurate, it is at most 1.73 times that, within 1 % of the least over all places
 //! (both bounds asserted in `order_conditions`).
 
-use super::{Stages, Tableau};
+use super::{Rk5Stages, Tableau};
 use crate::error::Cause;
 use crate::method::{Dense, Ends};
 use crate::ode::{Ode, evaluate};
@@ -31,7 +31,7 @@ pub(super) const NODE_A: f64 = 1.0 / 5.0;
 /// Second relative position.
 pub(super) const NODE_B: f64 = 1.0 / 2.0;
 
-impl<O: Ode, T: Tableau> Dense<O> for Stages<T> {
+impl<O: Ode, T: Tableau> Dense<O> for Rk5Stages<T> {
     fn interpolate(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]) {
         quartic(&T::D, &self.k, ends, theta, out);
     }

@@ -20,18 +20,18 @@ use crate::ode::Ode;
 use std::marker::PhantomData;
 
 impl<O: Ode> Method<O> for Dopri5 {
-    type Stepper = Stages<Self>;
+    type Stepper = Rk5Stages<Self>;
 
-    fn stepper(&self, ode: &O) -> Stages<Self> {
-        Stages::new(ode.dim())
+    fn stepper(&self, ode: &O) -> Rk5Stages<Self> {
+        Rk5Stages::new(ode.dim())
     }
 }
 
 impl<O: Ode> Method<O> for Tsit5 {
-    type Stepper = Stages<Self>;
+    type Stepper = Rk5Stages<Self>;
 
-    fn stepper(&self, ode: &O) -> Stages<Self> {
-        Stages::new(ode.dim())
+    fn stepper(&self, ode: &O) -> Rk5Stages<Self> {
+        Rk5Stages::new(ode.dim())
     }
 }
 
@@ -47,7 +47,7 @@ const CONTROL: ControlConstants = ControlConstants {
 /// Stages and scratch; the first stage is the derivative at the start of the step, kept by the
 /// caller.
 #[derive(Debug)]
-pub struct Stages<T> {
+pub struct Rk5Stages<T> {
     control: Control,
     /// Stages 2 to 7 of the last trial.
     k: [Vec<f64>; 6],
@@ -59,7 +59,7 @@ pub struct Stages<T> {
     tableau: PhantomData<T>,
 }
 
-impl<T> Stages<T> {
+impl<T> Rk5Stages<T> {
     /// Allocates storage for `dim` components.
     pub(crate) fn new(dim: usize) -> Self {
         let zeros = || vec![0.0; dim];

@@ -1,6 +1,6 @@
 //! One trial step and its estimated error.
 
-use super::{Stages, Tableau};
+use super::{Rk5Stages, Tableau};
 use crate::combine::combine;
 use crate::control::StepControl;
 use crate::error::Cause;
@@ -8,7 +8,7 @@ use crate::method::{Start, Stepper, Trial, widest_gap};
 use crate::ode::{Ode, evaluate};
 use crate::statistics::Statistics;
 
-impl<O: Ode, T: Tableau> Stepper<O> for Stages<T> {
+impl<O: Ode, T: Tableau> Stepper<O> for Rk5Stages<T> {
     fn order(&self) -> i32 {
         5
     }

@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use dynamics::Prepared;
+use dynamics::PreparedMechanism;
 use integrators::{Ode, StepEnd, StepInfo};
 use linalg::Matrix;
 use model::{Mechanism, Reaction, Scratch, System};
@@ -88,7 +88,7 @@ impl<'a> Equations<'a> {
     /// # Errors
     /// The error of the solver.
     pub fn new(
-        prepared: &'a Prepared,
+        prepared: &'a PreparedMechanism,
         drift: Drift,
         solver: impl FnOnce(&Matrix, &[f64]) -> Result<Box<dyn Solver + 'a>, Fault>,
     ) -> Result<Self, Fault> {

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use dynamics::Prepared;
+use dynamics::PreparedMechanism;
 use integrators::{
     Cause, Dop853, Dopri5, IntegrationError, Interval, Ode, Options, OutputTimes, Tsit5, sample,
 };
@@ -57,7 +57,7 @@ const MOST_STEPS: u64 = 1_000_000;
 /// # Errors
 /// The reason why the run did not reach the end.
 pub fn run(
-    prepared: &Prepared,
+    prepared: &PreparedMechanism,
     way: Comparator,
     tolerance: f64,
     times: &[f64],
@@ -70,7 +70,7 @@ pub fn run(
 /// # Errors
 /// As [`run`].
 pub fn run_within(
-    prepared: &Prepared,
+    prepared: &PreparedMechanism,
     way: Comparator,
     tolerance: f64,
     times: &[f64],

@@ -1,6 +1,6 @@
 //! Orders of the two methods with their own steppers, for constant step sizes.
 
-use dynamics::{Prepared, RowChoice, prepare};
+use dynamics::{PreparedMechanism, RowChoice, prepare};
 use integrators::Ode;
 use model::{Mechanism, StartOptions, System};
 
@@ -14,7 +14,7 @@ use crate::mechanisms::cranks::cranks;
 const END: f64 = 0.4;
 
 /// Three cranks under one coupler, one of them redundant, falling.
-fn falling() -> Prepared {
+fn falling() -> PreparedMechanism {
     let mut three = cranks(&[0.0, 1.0, 2.0], 0.8, 0.9);
     three.gravity = [0.0, -9.81];
     let mechanism = Mechanism::build(&three).expect("three cranks");
@@ -22,7 +22,7 @@ fn falling() -> Prepared {
 }
 
 /// The state at the end after `n` steps of equal size, with a projection after each.
-fn at_end(p: &Prepared, stepper: &mut dyn Stepper, tolerance: f64, n: usize) -> Vec<f64> {
+fn at_end(p: &PreparedMechanism, stepper: &mut dyn Stepper, tolerance: f64, n: usize) -> Vec<f64> {
     let kept = &p.decision.kept;
     let columns = p.mechanism.layout().n_v;
     let solver = |_: &_, _: &_| Ok(Box::new(KeptRows::new(columns, kept)?) as _);

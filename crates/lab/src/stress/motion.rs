@@ -4,10 +4,10 @@
 use std::ops::ControlFlow;
 
 use dynamics::{
-    FORMULATION, Method, MotionOptions, Prepared, RowChoice, Summary, prepare, simulate,
+    FORMULATION, Method, MotionOptions, PreparedMechanism, RowChoice, Summary, prepare, simulate,
 };
 use model::start::CorrectionLimit;
-use model::{BodySpace, Described, Description, Mechanism, Registry, StartOptions};
+use model::{BodySpace, Description, Mechanism, MechanismDescription, Registry, StartOptions};
 use pfaff::{RunOptions, Study, StudyError};
 use solvability::{Analysis, analyse};
 
@@ -83,7 +83,7 @@ pub fn study(text: &str) -> Result<Study, Outcome> {
 ///
 /// # Errors
 /// All faults of the description.
-pub fn built<S: BodySpace>(description: &Described<S>) -> Result<Mechanism, Outcome> {
+pub fn built<S: BodySpace>(description: &MechanismDescription<S>) -> Result<Mechanism, Outcome> {
     Mechanism::build(description).map_err(|errors| {
         let texts: Vec<String> = errors.iter().map(ToString::to_string).collect();
         Outcome::refused(texts.join("; "))
@@ -96,7 +96,9 @@ pub fn built<S: BodySpace>(description: &Described<S>) -> Result<Mechanism, Outc
 ///
 /// # Errors
 /// The faults of the description, or the reason why it cannot move.
-pub fn prepared<S: BodySpace>(description: &Described<S>) -> Result<Prepared, Outcome> {
+pub fn prepared<S: BodySpace>(
+    description: &MechanismDescription<S>,
+) -> Result<PreparedMechanism, Outcome> {
     let start = StartOptions {
         correction: CorrectionLimit::Any,
         ..StartOptions::default()
@@ -118,7 +120,10 @@ pub fn analysed(description: &Description) -> Result<Analysis, Outcome> {
 ///
 /// # Errors
 /// The reason why there are none.
-pub fn acceleration(prepared: &Prepared, options: &MotionOptions) -> Result<Vec<f64>, Outcome> {
+pub fn acceleration(
+    prepared: &PreparedMechanism,
+    options: &MotionOptions,
+) -> Result<Vec<f64>, Outcome> {
     let mut found = Vec::new();
     let run = simulate(prepared, options, |sample| {
         found = sample.acceleration()?;
@@ -134,7 +139,10 @@ pub fn acceleration(prepared: &Prepared, options: &MotionOptions) -> Result<Vec<
 ///
 /// # Errors
 /// The reason why it stopped.
-pub fn last_row(prepared: &Prepared, options: &MotionOptions) -> Result<(Row, Summary), Outcome> {
+pub fn last_row(
+    prepared: &PreparedMechanism,
+    options: &MotionOptions,
+) -> Result<(Row, Summary), Outcome> {
     let mut last = Row::default();
     let summary = simulate(prepared, options, |sample| {
         last = Row {
@@ -178,7 +186,7 @@ pub fn outcome(
 
 /// The same for a prepared mechanism.
 pub fn outcome_of(
-    prepared: &dynamics::Prepared,
+    prepared: &dynamics::PreparedMechanism,
     options: &MotionOptions,
     error: impl Fn(&Row, &Summary) -> f64,
 ) -> Outcome {

@@ -1,6 +1,6 @@
 //! Every comparator compared with known motions, and with pfaff if the mechanism is redundant.
 
-use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
+use dynamics::{MotionOptions, PreparedMechanism, RowChoice, prepare, simulate};
 use lab::comparators::{Comparator, Drift, Formulation, Method, run};
 use lab::mechanisms::cranks::cranks;
 use lab::mechanisms::robot::{robot, steering};
@@ -8,13 +8,13 @@ use model::{Description, Mechanism, StartOptions, System};
 use std::ops::ControlFlow;
 use suite::{Instant, Quantity};
 
-pub(crate) fn started(d: &Description) -> Prepared {
+pub(crate) fn started(d: &Description) -> PreparedMechanism {
     let mechanism = Mechanism::build(d).expect("builds");
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts")
 }
 
 /// A case of the suite, at its start.
-fn case(name: &str) -> (Prepared, Vec<Instant>) {
+fn case(name: &str) -> (PreparedMechanism, Vec<Instant>) {
     let case = suite::find(name).expect("a case");
     let registry = model::Registry::standard();
     let study = pfaff::Study::read(
@@ -29,7 +29,7 @@ fn case(name: &str) -> (Prepared, Vec<Instant>) {
 }
 
 /// The largest difference from the known coordinates and velocities.
-fn off(p: &Prepared, row: &lab::comparators::Row, instant: &Instant) -> f64 {
+fn off(p: &PreparedMechanism, row: &lab::comparators::Row, instant: &Instant) -> f64 {
     assert_eq!(row.t, instant.t);
     let mechanism = &p.mechanism;
     let coordinate = |of: &str, name: &str| {
@@ -132,7 +132,7 @@ fn the_robot_moves_as_two_derivations_say() {
 }
 
 /// The last state of the motion computed by pfaff.
-pub(crate) fn product(p: &Prepared, t_end: f64, tolerance: f64) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn product(p: &PreparedMechanism, t_end: f64, tolerance: f64) -> (Vec<f64>, Vec<f64>) {
     let options = MotionOptions {
         rtol: tolerance,
         atol: tolerance,

@@ -1,6 +1,6 @@
 //! The steppers of the laboratory: orders, stiff springs, break times.
 
-use dynamics::Prepared;
+use dynamics::PreparedMechanism;
 use joints::SpringDamper;
 use lab::comparators::{Comparator, Drift, Formulation, Method, Run, run};
 use lab::mechanisms::cranks::cranks;
@@ -8,7 +8,7 @@ use model::{BodyRef, Description, Force};
 
 use crate::known::{gap, started};
 
-fn moved(p: &Prepared, method: Method, tolerance: f64, t_end: f64) -> Run {
+fn moved(p: &PreparedMechanism, method: Method, tolerance: f64, t_end: f64) -> Run {
     let way = Comparator {
         formulation: Formulation::KeptRows,
         method,

@@ -13,7 +13,7 @@
 use super::error::{SaddleError, check_length};
 use super::lists::{Entries, Entry, Lists};
 use super::order::Order;
-use super::plan::{Chosen, Plan};
+use super::plan::{Plan, RowPivot};
 use crate::limits::RESERVED;
 
 /// Factors of the rows that are used.
@@ -25,20 +25,20 @@ pub(super) struct TallLu {
     plan: Plan,
     /// Number of rows in use: all rows without the skipped ones.
     pub(super) r: usize,
-    solved: Solved,
-    factors: Factors,
+    solved: PivotRows,
+    factors: LuFactors,
     /// Coordinates that no row is solved for.
     pub(super) free: Vec<usize>,
     is_changed: bool,
     /// Smallest `largest entry left / largest entry` of a row, rows left out included.
     pub(super) pivot_ratio: f64,
-    work: Work,
+    work: EliminationRow,
 }
 
 /// Rows in use and what they are solved for. Of the last factorisation while the next one repeats
 /// it.
 #[derive(Debug, Clone)]
-struct Solved {
+struct PivotRows {
     /// The row of C for each row in use, and the coordinate that it is solved for.
     used: Vec<usize>,
     pivot: Vec<usize>,
@@ -50,7 +50,7 @@ struct Solved {
 
 /// Entries of L and U.
 #[derive(Debug, Clone)]
-struct Factors {
+struct LuFactors {
     /// Row j: `U_kj` of the rows k < j that it is eliminated with, ascending.
     upper: Entries,
     /// Row j: column j of L below its unit diagonal, by coordinates.
@@ -62,7 +62,7 @@ struct Factors {
 
 /// The row that is being eliminated.
 #[derive(Debug, Clone)]
-struct Work {
+struct EliminationRow {
     /// Its entries by coordinates; zero between rows.
     x: Vec<f64>,
     /// Coordinates in which it can have entries, in any order, and whether each is among them.
@@ -105,13 +105,13 @@ impl TallLu {
             columns: lists,
             plan: Plan::new(n, rows, entries),
             r: 0,
-            solved: Solved {
+            solved: PivotRows {
                 used: Vec::with_capacity(rows),
                 pivot: Vec::with_capacity(rows),
                 is_used: vec![false; rows],
                 row_of: vec![u32::MAX; n],
             },
-            factors: Factors {
+            factors: LuFactors {
                 upper: Entries::with_capacity(rows, reserved),
                 lower: Entries::with_capacity(rows, reserved),
                 diagonal: vec![0.0; rows],
@@ -120,7 +120,7 @@ impl TallLu {
             free: (0..n).collect(),
             is_changed: true,
             pivot_ratio: f64::INFINITY,
-            work: Work {
+            work: EliminationRow {
                 x: vec![0.0; n],
                 touched: Vec::with_capacity(n),
                 is_touched: vec![false; n],
@@ -224,7 +224,7 @@ impl TallLu {
                 self.solved.pivot.push(at);
                 self.solved.row_of[at] = j as u32;
                 self.factors.upper.push(self.work.upper.iter().copied());
-                let Work { x, touched, .. } = &self.work;
+                let EliminationRow { x, touched, .. } = &self.work;
                 let row_of = &self.solved.row_of;
                 let below = touched.iter().filter(|&&i| row_of[i] == u32::MAX);
                 let inverse = 1.0 / pivot;
@@ -275,9 +275,9 @@ impl TallLu {
 
     /// Eliminates a row with the rows before it, wherever it can have entries, and leaves the
     /// result in the scratch. Returns the coordinate that it is best solved for.
-    fn search(&mut self, (row, c_j): (usize, &[f64]), graded: Option<&[f64]>) -> Option<Chosen> {
+    fn search(&mut self, (row, c_j): (usize, &[f64]), graded: Option<&[f64]>) -> Option<RowPivot> {
         let j = self.r as u32;
-        let Work {
+        let EliminationRow {
             x,
             touched,
             is_touched,
@@ -322,7 +322,7 @@ impl TallLu {
 
     /// Clears the scratch of a row.
     fn clear(&mut self) {
-        let Work {
+        let EliminationRow {
             x,
             touched,
             is_touched,

@@ -32,7 +32,7 @@ impl Order {
             };
         }
         let mut order = Self::default();
-        let mut left = Left::new(n, rows, solvable);
+        let mut left = RemainingRows::new(n, rows, solvable);
         while let Some((row, wish)) = left.next() {
             order.rows.push(row);
             order.wish.push(wish);
@@ -47,10 +47,10 @@ impl Order {
 }
 
 /// The work of eliminating a row, its number of entries, and the row.
-type Work = (usize, usize, usize);
+type RowWork = (usize, usize, usize);
 
 /// The rows that are not eliminated yet.
-struct Left<'s> {
+struct RemainingRows<'s> {
     solvable: Option<&'s [bool]>,
     /// Entries of each row, ascending.
     entries: Vec<Vec<Entry>>,
@@ -58,10 +58,10 @@ struct Left<'s> {
     rows: Vec<Vec<usize>>,
     is_eliminated: Vec<bool>,
     /// Each row with its work, the latest or one that was more.
-    queue: BinaryHeap<Reverse<Work>>,
+    queue: BinaryHeap<Reverse<RowWork>>,
 }
 
-impl<'s> Left<'s> {
+impl<'s> RemainingRows<'s> {
     fn new(n: usize, mut entries: Vec<Vec<Entry>>, solvable: Option<&'s [bool]>) -> Self {
         let mut rows = vec![Vec::new(); n];
         for (row, entries) in entries.iter_mut().enumerate() {
@@ -80,7 +80,7 @@ impl<'s> Left<'s> {
     }
 
     /// The work of eliminating a row, and the entry of the coordinate for which it is least.
-    fn least(&self, row: usize) -> (Work, Option<Entry>) {
+    fn least(&self, row: usize) -> (RowWork, Option<Entry>) {
         let entries = self.entries[row].iter();
         let entries = entries.filter(|e| self.solvable.is_none_or(|solvable| solvable[e.index()]));
         let sizes = entries.clone().map(|e| e.value.abs());

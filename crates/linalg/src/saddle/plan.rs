@@ -104,7 +104,7 @@ pub(super) struct Choice<'a> {
 
 /// The coordinate that a row is solved for, and the size by which it is compared with others: the
 /// largest entry, or its own where masses are graded.
-pub(super) type Chosen = (usize, f64);
+pub(super) type RowPivot = (usize, f64);
 
 impl Choice<'_> {
     /// The coordinate to be solved for, `None` if no entry can be: the wished one if its entry is
@@ -114,7 +114,7 @@ impl Choice<'_> {
         x: &[f64],
         among: impl Iterator<Item = usize> + Clone,
         (wish, later): (Option<usize>, impl Fn(usize) -> usize),
-    ) -> Option<Chosen> {
+    ) -> Option<RowPivot> {
         let among = among.filter(|&i| self.solvable.is_none_or(|solvable| solvable[i]));
         let larger = |a: usize, b: usize| {
             let is_larger = x[b].abs() > x[a].abs() || x[b].abs() == x[a].abs() && b < a;

@@ -2,7 +2,7 @@
 
 use super::front::{add_element, add_update, eliminate};
 use super::tiles::{SIDE, by_width, diagonal, of_columns, squares, triangle};
-use super::{Assembly, Factors, SchurSaddle, SchurStructure};
+use super::{Assembly, LdlFactors, SchurSaddle, SchurStructure};
 use crate::limits::{SCHUR_NOISE, SCHUR_WHOLE};
 use crate::{SaddleError, SparseMatrix};
 
@@ -49,7 +49,7 @@ impl SchurSaddle {
         let floor = floor.max(SCHUR_NOISE).powi(2);
         let (mut smallest, mut n_left_out) = (f64::INFINITY, 0);
         let s = &self.structure;
-        let Factors {
+        let LdlFactors {
             l,
             inverse,
             compared,
@@ -162,7 +162,7 @@ impl SchurSaddle {
     }
 
     fn take_diagonal(&mut self) {
-        let Factors {
+        let LdlFactors {
             diagonal,
             compared,
             usual,
@@ -199,7 +199,7 @@ impl SchurSaddle {
     /// has the same [`SchurSaddle::pivot_ratio`] as before.
     pub fn keep_shares(&mut self) {
         let smallest = self.factors.pivot_ratio.powi(2);
-        let Factors {
+        let LdlFactors {
             usual,
             inverse,
             diagonal,

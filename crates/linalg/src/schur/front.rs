@@ -70,8 +70,8 @@ pub(super) fn eliminate(
     size: &[Lane],
     floor: f64,
     l: &mut [Tile],
-) -> Result<Eliminated, usize> {
-    let mut found = Eliminated {
+) -> Result<FrontElimination, usize> {
+    let mut found = FrontElimination {
         smallest: f64::INFINITY,
         n_left_out: 0,
     };
@@ -109,7 +109,7 @@ fn eliminate_panel(
     panel: &mut [Tile],
     (inverse, size): (&mut [f64], &[f64]),
     floor: f64,
-    found: &mut Eliminated,
+    found: &mut FrontElimination,
 ) -> Result<(), usize> {
     // Column j loses factor[k][j] times column k.
     let mut factors = [[0.0; SIDE]; SIDE];
@@ -151,7 +151,7 @@ fn eliminate_within(tile: &mut Tile, factors: &[[f64; SIDE]; SIDE]) {
 }
 
 /// Result of an elimination.
-pub(super) struct Eliminated {
+pub(super) struct FrontElimination {
     /// Smallest ratio of a pivot that was used.
     pub(super) smallest: f64,
     pub(super) n_left_out: usize,

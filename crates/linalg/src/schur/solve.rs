@@ -4,7 +4,7 @@ use super::tiles::{
     Lane, SIDE, Tile, add_times, add_transposed_times, by_width, dot, of_columns, subtract_times,
     sum, times_and_size, triangle,
 };
-use super::{Factors, SchurSaddle, SchurStructure, Work};
+use super::{LdlFactors, SchurSaddle, SchurStructure, SolutionScratch};
 use crate::kernels::all_finite;
 use crate::limits::{SCHUR_CORRECTIONS, SCHUR_ENOUGH, SCHUR_POOR, SCHUR_PROGRESS, SCHUR_ROUNDING};
 use crate::{SaddleError, SparseMatrix};
@@ -106,7 +106,7 @@ impl SchurSaddle {
         for (k, free) in self.work.free.iter_mut().enumerate() {
             *free = f[k] * self.factors.inverse_mass[k] - a[k];
         }
-        let Work { x, local, free, .. } = &mut self.work;
+        let SolutionScratch { x, local, free, .. } = &mut self.work;
         x.fill([0.0; SIDE]);
         let x = x.as_flattened_mut();
         add_all_times(&self.structure, &self.assembly.values, free, local, x);
@@ -150,7 +150,7 @@ impl SchurSaddle {
     /// Writes `C·a − γ` of the rows in use to x, in the order of elimination.
     fn take_residual(&mut self, gamma: &[f64], a: &[f64]) {
         let s = &self.structure;
-        let Work { x, local, .. } = &mut self.work;
+        let SolutionScratch { x, local, .. } = &mut self.work;
         x.fill([0.0; SIDE]);
         let numbers = x.as_flattened_mut();
         for (gamma, &place) in gamma.iter().zip(&s.rows.place) {
@@ -164,7 +164,7 @@ impl SchurSaddle {
     /// accelerations and those of free bodies.
     fn take_misfit(&mut self, gamma: &[f64], a: &[f64]) -> f64 {
         let s = &self.structure;
-        let Work {
+        let SolutionScratch {
             x,
             size,
             local,
@@ -205,7 +205,7 @@ impl SchurSaddle {
     /// other, accelerations are only their rounding.
     fn misfit_of_all(&mut self, c: &SparseMatrix, gamma: &[f64]) -> f64 {
         let s = &self.structure;
-        let Work {
+        let SolutionScratch {
             x,
             size,
             added,
@@ -238,7 +238,7 @@ impl SchurSaddle {
     /// Adds the multipliers in x and their effect on the motion, and their sizes to what was added.
     fn add_solution(&mut self, a: &mut [f64], lambda: &mut [f64]) {
         let s = &self.structure;
-        let Work {
+        let SolutionScratch {
             x, added, local, ..
         } = &mut self.work;
         let x = x.as_flattened();
@@ -255,8 +255,8 @@ impl SchurSaddle {
     /// `x ← S⁻¹·x` in the order of elimination.
     fn substitute(&mut self) {
         let s = &self.structure;
-        let Factors { l, inverse, .. } = &self.factors;
-        let Work { x, local, .. } = &mut self.work;
+        let LdlFactors { l, inverse, .. } = &self.factors;
+        let SolutionScratch { x, local, .. } = &mut self.work;
         let local = local.as_flattened_mut();
         for front in &s.fronts {
             let [of_pivots, of_rest] = front.lanes();
@@ -393,7 +393,7 @@ fn subtract_transposed(
 }
 
 /// Skipped rows have no residual.
-fn clear_unused(x: &mut [Lane], factors: &Factors) {
+fn clear_unused(x: &mut [Lane], factors: &LdlFactors) {
     if factors.n_left_out == 0 {
         return;
     }

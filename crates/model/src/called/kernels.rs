@@ -1,14 +1,14 @@
 //! The kernels of a called wrench, in the plane and in space.
 
 use joints::spec::{ForceSpec, Parameter, Shape, Spec, Unit};
-use joints::{Definition, ForceElement, Plane, Recorded, Space, Space3, plane, space3};
+use joints::{Definition, ForceElement, Plane, RecordedNumber, Space, Space3, plane, space3};
 
 use super::{BodyState, CalledWrench, Wrench};
 use crate::element::ForceKernels;
-use crate::law::Undefined;
+use crate::law::UndefinedValue;
 
 /// A space in which bodies have called wrenches.
-trait Acted: Space {
+trait WrenchSpace: Space {
     const SPEC: ForceSpec;
 
     fn state(time: f64, x: &Self::Pose<f64>, v: &Self::Twist<f64>) -> BodyState;
@@ -46,7 +46,7 @@ const fn spec(q: &'static [usize], pairs: &'static [[usize; 2]]) -> ForceSpec {
     }
 }
 
-impl Acted for Plane {
+impl WrenchSpace for Plane {
     const SPEC: ForceSpec = spec(&[0, 1, 2], crate::law::full(3));
 
     fn state(time: f64, x: &plane::Pose, v: &plane::Twist) -> BodyState {
@@ -65,7 +65,7 @@ impl Acted for Plane {
     }
 }
 
-impl Acted for Space3 {
+impl WrenchSpace for Space3 {
     const SPEC: ForceSpec = spec(&[0, 1, 2, 3, 4, 5], crate::law::full(6));
 
     fn state(time: f64, x: &space3::Pose, v: &space3::Twist) -> BodyState {
@@ -90,13 +90,13 @@ impl Acted for Space3 {
 }
 
 /// The facts of a called wrench in a space.
-struct Facts<S>(std::marker::PhantomData<S>);
+struct WrenchFacts<S>(std::marker::PhantomData<S>);
 
-impl<S: Acted> Facts<S> {
+impl<S: WrenchSpace> WrenchFacts<S> {
     const SPEC: ForceSpec = S::SPEC;
 }
 
-impl<S: Acted> Definition<S> for CalledWrench {
+impl<S: WrenchSpace> Definition<S> for CalledWrench {
     fn initialise(&mut self, _: &[S::Pose<f64>]) {}
 
     fn requirement(&self, _: usize, _: &[S::Pose<f64>]) -> bool {
@@ -104,9 +104,9 @@ impl<S: Acted> Definition<S> for CalledWrench {
     }
 }
 
-impl<S: Acted> ForceElement<f64, S> for CalledWrench {
+impl<S: WrenchSpace> ForceElement<f64, S> for CalledWrench {
     fn spec(&self) -> &'static ForceSpec {
-        &Facts::<S>::SPEC
+        &WrenchFacts::<S>::SPEC
     }
 
     fn q(&self, x: &[S::Pose<f64>], v: &[S::Twist<f64>], f: &[[f64; 3]], out: &mut [f64]) {
@@ -135,10 +135,10 @@ macro_rules! force_kernels {
             /// A function that is called cannot be recorded: generators of code refuse it.
             fn recorded_q(
                 &self,
-                _: &[<$space as Space>::Pose<Recorded>],
-                _: &[<$space as Space>::Twist<Recorded>],
-                _: &[[Recorded; 3]],
-                out: &mut [Recorded],
+                _: &[<$space as Space>::Pose<RecordedNumber>],
+                _: &[<$space as Space>::Twist<RecordedNumber>],
+                _: &[[RecordedNumber; 3]],
+                out: &mut [RecordedNumber],
             ) {
                 out.fill(f64::NAN.into());
             }
@@ -156,8 +156,8 @@ macro_rules! force_kernels {
                 x: &[<$space as Space>::Pose<f64>],
                 v: &[<$space as Space>::Twist<f64>],
                 f: &[[f64; 3]],
-            ) -> Option<Undefined> {
-                let state = <$space as Acted>::state(f[0][0], &x[0], &v[0]);
+            ) -> Option<UndefinedValue> {
+                let state = <$space as WrenchSpace>::state(f[0][0], &x[0], &v[0]);
                 self.value(&state).err()
             }
         }

@@ -7,20 +7,20 @@ use joints::{ConstraintKernels, Definition, Element, Programs, Reaction};
 
 use super::Coupling;
 use super::side::At;
-use crate::element::{Evaluated, Kinematics, PoseOf, TwistOf};
+use crate::element::{DriveScalar, Kinematics, PoseOf, TwistOf};
 
 /// Both measures at a pose, with h and its derivatives.
-struct Both<T> {
+struct MeasurePair<T> {
     x: At<T>,
     y: At<T>,
     h: [T; 4],
 }
 
 impl<S: Kinematics> Coupling<S> {
-    fn both<T: Evaluated>(&self, x: &[PoseOf<S, T>], f: &[[T; 3]]) -> Both<T> {
+    fn both<T: DriveScalar>(&self, x: &[PoseOf<S, T>], f: &[[T; 3]]) -> MeasurePair<T> {
         let [of_x, of_y] = &self.sides;
         let (at_x, at_y) = (of_x.at(&of_x.own(x), f), of_y.at(&of_y.own(x), f));
-        Both {
+        MeasurePair {
             h: self.law.at(at_x.measure, of_y.stored.end),
             x: at_x,
             y: at_y,
@@ -69,7 +69,7 @@ impl<S: Kinematics> Definition<S> for Coupling<S> {
     }
 }
 
-impl<T: Evaluated, S: Kinematics> Element<T, S> for Coupling<S> {
+impl<T: DriveScalar, S: Kinematics> Element<T, S> for Coupling<S> {
     fn spec(&self) -> &'static ConstraintSpec {
         &self.facts.spec
     }

@@ -12,7 +12,7 @@ use joints::spec::{
 pub(crate) const TYPE: &str = "coupling";
 
 /// The facts of a coupling with the patterns of its kernels.
-pub(super) struct Facts {
+pub(super) struct CouplingFacts {
     pub(super) spec: ConstraintSpec,
     /// Velocities of a body.
     n_dof: usize,
@@ -20,7 +20,7 @@ pub(super) struct Facts {
     entry_of: Vec<Option<usize>>,
 }
 
-impl Facts {
+impl CouplingFacts {
     /// The entry of the row for a freedom of a slot; it exists for entries of the measures.
     pub(super) fn entry(&self, slot: usize, dof: usize) -> usize {
         self.entry_of[self.column(slot, dof)].unwrap_or_default()
@@ -41,7 +41,7 @@ const SLOTS: [&str; 4] = ["i", "j", "k", "l"];
 
 /// All facts that were made: at most one set for each pair of measures, each way in which they
 /// share bodies and each degree.
-static KEPT: Mutex<Option<HashMap<Key, &'static Facts>>> = Mutex::new(None);
+static KEPT: Mutex<Option<HashMap<Key, &'static CouplingFacts>>> = Mutex::new(None);
 
 /// Places of the specs of both measures, their slots, and the degree.
 type Key = ([usize; 2], [[usize; 2]; 2], usize);
@@ -53,7 +53,7 @@ pub(super) fn facts(
     slots: [[usize; 2]; 2],
     [n_slots, n_dof]: [usize; 2],
     degree: usize,
-) -> &'static Facts {
+) -> &'static CouplingFacts {
     // Specs are constants: one place, one content. Names are not enough: the plane, space and
     // crates of users may have the same.
     let place = |spec: &'static ConstraintSpec| std::ptr::from_ref(spec).addr();
@@ -69,9 +69,9 @@ fn made(
     slots: [[usize; 2]; 2],
     [n_slots, n_dof]: [usize; 2],
     degree: usize,
-) -> Facts {
+) -> CouplingFacts {
     let columns = n_dof * n_slots;
-    let mut facts = Facts {
+    let mut facts = CouplingFacts {
         spec: ConstraintSpec {
             common: common(measures, slots, n_slots),
             ..PLAIN

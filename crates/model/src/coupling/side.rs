@@ -3,9 +3,9 @@
 
 use joints::Ring;
 
-use super::facts::Facts;
+use super::facts::CouplingFacts;
 use crate::element::{
-    BodySpace, ConstraintKernels, Evaluated, Kinematics, PoseOf, RowsAt, TwistOf, stored,
+    BodySpace, ConstraintKernels, DriveScalar, Kinematics, PoseOf, RowsAt, TwistOf, stored,
 };
 
 /// Velocities of two bodies.
@@ -58,7 +58,7 @@ impl<S: Kinematics> Side<S> {
         slots: [usize; 2],
         [first_datum, first_stored]: [usize; 2],
         turn: usize,
-        facts: &Facts,
+        facts: &CouplingFacts,
     ) -> Self {
         let spec = drive.spec();
         let entry = |e: &joints::spec::Entry| facts.entry(slots[e.slot], e.dof);
@@ -79,7 +79,7 @@ impl<S: Kinematics> Side<S> {
     }
 
     /// The measure and its gradient at poses of its bodies.
-    pub(super) fn at<T: Evaluated>(&self, x: &[PoseOf<S, T>; 2], f: &[[T; 3]]) -> At<T> {
+    pub(super) fn at<T: DriveScalar>(&self, x: &[PoseOf<S, T>; 2], f: &[[T; 3]]) -> At<T> {
         let zero = T::from(0.0);
         let mut known = zero;
         let mut own = [[zero; 3]; 2];
@@ -101,7 +101,7 @@ impl<S: Kinematics> Side<S> {
         })
     }
 
-    fn with_rows<T: Evaluated, R>(
+    fn with_rows<T: DriveScalar, R>(
         &self,
         (x, f): (&[PoseOf<S, T>; 2], &[[T; 3]; 2]),
         ask: impl FnOnce(&RowsAt<'_, S, T>) -> R,
@@ -129,7 +129,7 @@ impl<S: Kinematics> Side<S> {
 
     /// Γ of the measure. A row of an angle that counts its turns is sin ε, ε what is left of the
     /// angle without what is known of it; its Γ has ε·rate², which that of the angle has not.
-    pub(super) fn gamma<T: Evaluated>(
+    pub(super) fn gamma<T: DriveScalar>(
         &self,
         at: &At<T>,
         x: &[PoseOf<S, T>; 2],

@@ -5,7 +5,7 @@ use joints::space3::{
     Axes, CylindricalAngleDrive, CylindricalDisplacementDrive, DistanceLengthDrive, Pose,
     RevoluteAngleDrive, Twist,
 };
-use joints::{Constraint, ConstraintKernels, Sloped, Space3};
+use joints::{Constraint, ConstraintKernels, SlopedOutputs, Space3};
 
 use super::*;
 use crate::BodyRef::{Body, Ground};
@@ -41,7 +41,7 @@ fn drive<K: Constraint<Space3>>() -> Kernels {
 }
 
 /// Couplings of an angle with an angle and with a length, with and without a common body.
-fn couplings() -> Vec<Placed<Space3>> {
+fn couplings() -> Vec<AttachedConstraint<Space3>> {
     let angle = drive::<RevoluteAngleDrive>;
     let length = drive::<CylindricalDisplacementDrive>;
     let other = drive::<CylindricalAngleDrive>;
@@ -242,7 +242,7 @@ fn close(found: &[f64], expected: &[f64], what: &str) {
 fn cases() -> Vec<Case> {
     // Slots of the angles of each coupling.
     let angles: [&[[usize; 2]]; 3] = [&[[2, 3]], &[[0, 1]], &[[0, 2], [0, 1]]];
-    let case = |(seed, (bodies, mut kernels)): (usize, Placed<Space3>)| {
+    let case = |(seed, (bodies, mut kernels)): (usize, AttachedConstraint<Space3>)| {
         let state = |number: usize| {
             let mut state = State::new(bodies.len(), number);
             for (k, slots) in angles[seed].iter().enumerate() {
@@ -357,7 +357,7 @@ fn derivatives_by_data_agree_with_differences() {
             (0..numbers.len()).map(along).collect()
         };
         let mut found = vec![0.0; numbers.len()];
-        let by_data = kernels.slopes(&x, &given(kernels, &x), Sloped::All(&v));
+        let by_data = kernels.slopes(&x, &given(kernels, &x), SlopedOutputs::All(&v));
         by_data.phi(&[1.3], &mut found);
         let expected = slopes(&|case| 1.3 * case.phi(&x));
         close(&found, &expected, &format!("coupling {number}: ∂(λᵀΦ)/∂p"));

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use joints::space3::{Pose, Twist};
 use joints::spec::ConstraintSpec;
-use joints::{Magnitude, Sloped, Slopes, Space3};
+use joints::{Magnitude, SlopedOutputs, Slopes, Space3};
 
 use super::slots::{Kinematics, Rates, Site, Slots};
 use super::{AnyConstraint, Bodies, BodySpace, stored, with};
@@ -12,13 +12,13 @@ use crate::rows::RowRanges;
 
 /// A constraint in the axes in which its bodies move.
 #[derive(Clone)]
-pub(crate) struct Framed {
+pub(crate) struct FramedConstraint {
     element: AnyConstraint,
     /// Axes u, v and w of its joint, fixed in the first body, in the axes of its frame.
     axes: Option<[[f64; 3]; 3]>,
 }
 
-impl Framed {
+impl FramedConstraint {
     /// A constraint as it is described; `turn` writes it in the axes in which its bodies move.
     pub(crate) fn new(mut element: AnyConstraint, turn: impl FnOnce(&mut AnyConstraint)) -> Self {
         let axes = with!(AnyConstraint, &element, element, _S => element.axes());
@@ -35,7 +35,7 @@ impl Framed {
 /// they depend on them, the velocities; `out` is overwritten.
 #[derive(Clone)]
 pub(crate) struct PlacedConstraint {
-    framed: Framed,
+    framed: FramedConstraint,
     pub(crate) site: Site,
     /// Its entries of C in the scratch.
     pub(crate) entries: Range<usize>,
@@ -49,7 +49,7 @@ pub(crate) struct PlacedConstraint {
 impl PlacedConstraint {
     /// A constraint whose rows are not yet numbered.
     pub(crate) fn new(
-        framed: Framed,
+        framed: FramedConstraint,
         site: Site,
         entries: Range<usize>,
         tolerance: Option<f64>,
@@ -70,7 +70,7 @@ impl PlacedConstraint {
         &self.framed.element
     }
 
-    pub(crate) fn framed(&self) -> &Framed {
+    pub(crate) fn framed(&self) -> &FramedConstraint {
         &self.framed
     }
 
@@ -224,14 +224,14 @@ impl PlacedConstraint {
     /// The derivatives of Φ with respect to its numbers.
     pub(crate) fn slopes_of_phi(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
-            element.slopes(self.site.x::<S>(s), self.site.f(s), Sloped::Phi)
+            element.slopes(self.site.x::<S>(s), self.site.f(s), SlopedOutputs::Phi)
         })
     }
 
     /// The derivatives of C.
     pub(crate) fn slopes_of_c(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
-            element.slopes(self.site.x::<S>(s), self.site.f(s), Sloped::C)
+            element.slopes(self.site.x::<S>(s), self.site.f(s), SlopedOutputs::C)
         })
     }
 
@@ -239,7 +239,7 @@ impl PlacedConstraint {
     pub(crate) fn slopes(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
             let v = self.site.v::<S>(&s.rates);
-            element.slopes(self.site.x::<S>(s), self.site.f(s), Sloped::All(v))
+            element.slopes(self.site.x::<S>(s), self.site.f(s), SlopedOutputs::All(v))
         })
     }
 

@@ -2,14 +2,14 @@
 
 use joints::space3::{Pose, Twist};
 use joints::spec::ForceSpec;
-use joints::{Recorded, Space3};
+use joints::{RecordedNumber, Space3};
 
 use super::recorded::RecordedSlots;
 use super::slots::{Site, Slots};
 use super::turned::TurnedSlots;
 use super::{AnyForce, Bodies, ForceKernels, with};
 use crate::body::BodyRef;
-use crate::law::{DriveForce, Undefined};
+use crate::law::{DriveForce, UndefinedValue};
 
 /// A force with its indices in the mechanism.
 #[derive(Clone)]
@@ -186,7 +186,7 @@ impl PlacedForce {
     }
 
     /// Why its called function has no value.
-    pub(crate) fn undefined(&self, s: &Slots) -> Option<Undefined> {
+    pub(crate) fn undefined(&self, s: &Slots) -> Option<UndefinedValue> {
         if let Some((turned, kernels)) = self.between() {
             let f = self.site.f(s);
             let at = self.site.in_space(s);
@@ -198,7 +198,7 @@ impl PlacedForce {
         })
     }
 
-    pub(crate) fn recorded_q(&self, at: &RecordedSlots, out: &mut [Recorded]) {
+    pub(crate) fn recorded_q(&self, at: &RecordedSlots, out: &mut [RecordedNumber]) {
         if let Some((turned, kernels)) = self.between() {
             let (x, v, f) = at.of::<Space3>(&self.site);
             return turned.recorded_q(kernels, (x, v), f, out);

@@ -2,14 +2,14 @@
 
 use joints::spec::{ConstraintSpec, ForceSpec};
 use joints::{
-    Constraint, ConstraintKernels, Force, ForceElement, Plane, Recorded, Ring, Rows, Scalar, Space,
-    Space3,
+    Constraint, ConstraintKernels, Force, ForceElement, Plane, RecordedNumber, Ring, Rows, Scalar,
+    Space, Space3,
 };
 
 use crate::body::{BodyRef, DescribedBody};
 use crate::called::CalledWrench;
 use crate::coupling::CouplingError;
-use crate::law::{DriveForce, Law, LawError, Undefined};
+use crate::law::{DriveForce, Law, LawError, UndefinedValue};
 use crate::space::SpaceKind;
 
 /// A space of kernels in which bodies are described: the plane, or space.
@@ -54,9 +54,9 @@ pub trait BodySpace: joints::Space + Sized {
     /// The constraint by which the second measure follows the first.
     #[doc(hidden)]
     fn couple(
-        measures: [Measured<Self>; 2],
+        measures: [AttachedMeasure<Self>; 2],
         coefficients: &[f64],
-    ) -> Result<Placed<Self>, CouplingError>;
+    ) -> Result<AttachedConstraint<Self>, CouplingError>;
 }
 
 /// Kernels of a constraint in the plane or in space.
@@ -97,10 +97,10 @@ macro_rules! with {
 pub(super) use with;
 
 /// A measure that can be coupled: the bodies of its joint, and the kernels of its drive.
-pub type Measured<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
+pub type AttachedMeasure<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
 
 /// A constraint with its bodies.
-pub type Placed<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
+pub type AttachedConstraint<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
 
 /// Where the rows of a constraint are evaluated.
 pub(crate) struct RowsAt<'a, S: Space, T: Ring> {
@@ -119,7 +119,7 @@ impl<'a, S: Space, T: Ring> RowsAt<'a, S, T> {
 
 /// A number type in which a law and a coupling have the rows of a drive: `f64` by its kernels,
 /// numbers that record by its programs.
-pub(crate) trait Evaluated: Scalar {
+pub(crate) trait DriveScalar: Scalar {
     /// The numbers that the programs take, each made of its value and its place; none for kernels,
     /// which read their own.
     fn stored_by<S: Space>(
@@ -137,7 +137,7 @@ pub(crate) trait Evaluated: Scalar {
     fn component<S: Space>(at: &RowsAt<'_, S, Self>, out: &mut [Self]);
 }
 
-impl Evaluated for f64 {
+impl DriveScalar for f64 {
     fn stored_by<S: Space>(
         _: &dyn ConstraintKernels<S>,
         _: impl Fn(f64, usize) -> Self,
@@ -163,7 +163,7 @@ impl Evaluated for f64 {
     }
 }
 
-impl Evaluated for Recorded {
+impl DriveScalar for RecordedNumber {
     fn stored_by<S: Space>(
         kernels: &dyn ConstraintKernels<S>,
         number: impl Fn(f64, usize) -> Self,
@@ -206,10 +206,10 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
     /// Entries of Q by numbers that record their operations.
     fn recorded_q(
         &self,
-        x: &[S::Pose<Recorded>],
-        v: &[S::Twist<Recorded>],
-        f: &[[Recorded; 3]],
-        out: &mut [Recorded],
+        x: &[S::Pose<RecordedNumber>],
+        v: &[S::Twist<RecordedNumber>],
+        f: &[[RecordedNumber; 3]],
+        out: &mut [RecordedNumber],
     );
     /// A copy.
     fn boxed(&self) -> Box<dyn ForceKernels<S>>;
@@ -227,7 +227,7 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
         _x: &[S::Pose<f64>],
         _v: &[S::Twist<f64>],
         _f: &[[f64; 3]],
-    ) -> Option<Undefined> {
+    ) -> Option<UndefinedValue> {
         None
     }
     /// The same drive by another law, of the same measure: since the start, if the present one is.
@@ -249,12 +249,12 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
 impl<K: Force<S>, S: BodySpace> ForceKernels<S> for K {
     fn recorded_q(
         &self,
-        x: &[S::Pose<Recorded>],
-        v: &[S::Twist<Recorded>],
-        f: &[[Recorded; 3]],
-        out: &mut [Recorded],
+        x: &[S::Pose<RecordedNumber>],
+        v: &[S::Twist<RecordedNumber>],
+        f: &[[RecordedNumber; 3]],
+        out: &mut [RecordedNumber],
     ) {
-        self.element::<Recorded>().q(x, v, f, out);
+        self.element::<RecordedNumber>().q(x, v, f, out);
     }
     fn boxed(&self) -> Box<dyn ForceKernels<S>> {
         Box::new(self.clone())

@@ -1,7 +1,7 @@
 //! Arguments of kernels as inputs of a recording.
 
 use joints::plane::Pose;
-use joints::{Plane, Recorded, Space as _, Space3, space3};
+use joints::{Plane, RecordedNumber, Space as _, Space3, space3};
 
 use super::bodies::{InEach, Poses, Twists};
 use super::constraint::PlacedConstraint;
@@ -42,19 +42,19 @@ pub enum Input {
 
 /// Poses, twists and functions of time of one element.
 type Arguments<'a, S> = (
-    Vec<<S as joints::Space>::Pose<Recorded>>,
-    Vec<<S as joints::Space>::Twist<Recorded>>,
-    &'a [[Recorded; 3]],
+    Vec<<S as joints::Space>::Pose<RecordedNumber>>,
+    Vec<<S as joints::Space>::Twist<RecordedNumber>>,
+    &'a [[RecordedNumber; 3]],
 );
 
 /// Poses and twists of all bodies, and functions of time, as inputs of a recording.
 pub(crate) struct RecordedSlots {
-    poses: Poses<Recorded>,
-    twists: Twists<Recorded>,
-    jets: Vec<[Recorded; 3]>,
+    poses: Poses<RecordedNumber>,
+    twists: Twists<RecordedNumber>,
+    jets: Vec<[RecordedNumber; 3]>,
     /// Coordinates and velocities of all bodies.
-    q: Vec<Recorded>,
-    v: Vec<Recorded>,
+    q: Vec<RecordedNumber>,
+    v: Vec<RecordedNumber>,
 }
 
 impl RecordedSlots {
@@ -63,11 +63,11 @@ impl RecordedSlots {
         space: SpaceKind,
         bodies: usize,
         functions: usize,
-        mut input: impl FnMut(Input) -> Recorded,
+        mut input: impl FnMut(Input) -> RecordedNumber,
     ) -> Self {
         let (mut q, mut poses, mut twists) = (Vec::new(), InEach::default(), InEach::default());
         for body in 0..bodies {
-            let own: Vec<Recorded> = space
+            let own: Vec<RecordedNumber> = space
                 .coordinates(body)
                 .map(|k| input(Input::Coordinate(k)))
                 .collect();
@@ -92,7 +92,7 @@ impl RecordedSlots {
             }
         }
         let columns = 0..space.n_v() * bodies;
-        let v: Vec<Recorded> = columns.map(|k| input(Input::Velocity(k))).collect();
+        let v: Vec<RecordedNumber> = columns.map(|k| input(Input::Velocity(k))).collect();
         for own in v.chunks_exact(space.n_v()) {
             match space {
                 SpaceKind::Space3 => twists.space3.push(Space3::twist(own)),
@@ -117,17 +117,17 @@ impl RecordedSlots {
     }
 
     /// Coordinates and velocities of all bodies.
-    pub(crate) fn state(&self) -> (&[Recorded], &[Recorded]) {
+    pub(crate) fn state(&self) -> (&[RecordedNumber], &[RecordedNumber]) {
         (&self.q, &self.v)
     }
 
     /// The angular velocity of each spatial body in its principal axes.
-    pub(crate) fn spins(&self) -> impl Iterator<Item = [Recorded; 3]> + '_ {
+    pub(crate) fn spins(&self) -> impl Iterator<Item = [RecordedNumber; 3]> + '_ {
         self.twists.space3.iter().map(|twist| twist.omega)
     }
 
     /// Φ of the holonomic rows of a constraint.
-    pub(crate) fn phi(&self, constraint: &PlacedConstraint, out: &mut [Recorded]) {
+    pub(crate) fn phi(&self, constraint: &PlacedConstraint, out: &mut [RecordedNumber]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let (x, _, f) = self.of::<S>(&constraint.site);
             element.programs().of(&stored(element.as_ref())).phi::<S>(&x, f, out);
@@ -135,7 +135,7 @@ impl RecordedSlots {
     }
 
     /// C of a constraint.
-    pub(crate) fn c(&self, constraint: &PlacedConstraint, out: &mut [Recorded]) {
+    pub(crate) fn c(&self, constraint: &PlacedConstraint, out: &mut [RecordedNumber]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let (x, _, f) = self.of::<S>(&constraint.site);
             element.programs().of(&stored(element.as_ref())).c::<S>(&x, f, out);
@@ -143,7 +143,7 @@ impl RecordedSlots {
     }
 
     /// b of a constraint.
-    pub(crate) fn b(&self, constraint: &PlacedConstraint, out: &mut [Recorded]) {
+    pub(crate) fn b(&self, constraint: &PlacedConstraint, out: &mut [RecordedNumber]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let (x, _, f) = self.of::<S>(&constraint.site);
             element.programs().of(&stored(element.as_ref())).b::<S>(&x, f, out);
@@ -151,7 +151,7 @@ impl RecordedSlots {
     }
 
     /// Γ of a constraint.
-    pub(crate) fn gamma(&self, constraint: &PlacedConstraint, out: &mut [Recorded]) {
+    pub(crate) fn gamma(&self, constraint: &PlacedConstraint, out: &mut [RecordedNumber]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let (x, v, f) = self.of::<S>(&constraint.site);
             element.programs().of(&stored(element.as_ref())).gamma::<S>(&x, &v, f, out);
@@ -160,12 +160,12 @@ impl RecordedSlots {
 
     /// Poses, twists and functions of time of an element.
     pub(super) fn of<S: Kinematics>(&self, site: &Site) -> Arguments<'_, S> {
-        let rest = || S::twist(&[Recorded::from(0.0); 6]);
+        let rest = || S::twist(&[RecordedNumber::from(0.0); 6]);
         let twist = |b: &BodyRef| b.moving().map_or_else(rest, |k| S::twists(&self.twists)[k]);
         (
             site.bodies
                 .iter()
-                .map(|&b| pose_of::<S, Recorded>(&self.poses, b))
+                .map(|&b| pose_of::<S, RecordedNumber>(&self.poses, b))
                 .collect(),
             site.bodies.iter().map(twist).collect(),
             &self.jets[site.functions.clone()],

@@ -2,7 +2,9 @@
 
 use joints::{Constraint, ConstraintKernels, Plane, Space3};
 
-use super::kernels::{AnyConstraint, AnyForce, BodySpace, ForceKernels, Measured, Placed};
+use super::kernels::{
+    AnyConstraint, AnyForce, AttachedConstraint, AttachedMeasure, BodySpace, ForceKernels,
+};
 use crate::body::{Body, SpatialBody};
 use crate::called::CalledWrench;
 use crate::coupling::{CouplingError, couple};
@@ -43,9 +45,9 @@ impl BodySpace for Plane {
     }
 
     fn couple(
-        measures: [Measured<Self>; 2],
+        measures: [AttachedMeasure<Self>; 2],
         coefficients: &[f64],
-    ) -> Result<Placed<Self>, CouplingError> {
+    ) -> Result<AttachedConstraint<Self>, CouplingError> {
         couple(measures, coefficients)
     }
 }
@@ -87,9 +89,9 @@ impl BodySpace for Space3 {
     }
 
     fn couple(
-        measures: [Measured<Self>; 2],
+        measures: [AttachedMeasure<Self>; 2],
         coefficients: &[f64],
-    ) -> Result<Placed<Self>, CouplingError> {
+    ) -> Result<AttachedConstraint<Self>, CouplingError> {
         couple(measures, coefficients)
     }
 }

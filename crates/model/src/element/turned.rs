@@ -3,7 +3,7 @@
 //! torques and derivatives are turned.
 
 use joints::space3::{N_DOF, Pose, Twist};
-use joints::{Recorded, Ring, Space3};
+use joints::{RecordedNumber, Ring, Space3};
 
 use super::ForceKernels;
 use crate::principal::Principal;
@@ -122,12 +122,12 @@ impl TurnedSlots {
     pub(super) fn recorded_q(
         &self,
         kernels: &dyn ForceKernels<Space3>,
-        (mut x, mut v): (Vec<Pose<Recorded>>, Vec<Twist<Recorded>>),
-        f: &[[Recorded; 3]],
-        out: &mut [Recorded],
+        (mut x, mut v): (Vec<Pose<RecordedNumber>>, Vec<Twist<RecordedNumber>>),
+        f: &[[RecordedNumber; 3]],
+        out: &mut [RecordedNumber],
     ) {
         let pattern = kernels.spec().q;
-        let mut values = vec![Recorded::from(0.0); pattern.len()];
+        let mut values = vec![RecordedNumber::from(0.0); pattern.len()];
         self.poses(&mut x);
         self.twists(&mut v);
         kernels.recorded_q(&x, &v, f, &mut values);

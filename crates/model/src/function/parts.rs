@@ -1,7 +1,7 @@
 //! The parts of a function of time, for generators of code.
 
 use super::spline::Spline;
-use super::{Function, Law, points};
+use super::{Function, TimeLaw, points};
 
 /// The kind of a function, with its numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,26 +109,26 @@ impl Function {
             numbers.iter().skip(from).step_by(n).copied().collect()
         };
         match &self.0 {
-            Law::Polynomial(_) => Self::polynomial(numbers).ok(),
-            Law::Harmonic { .. } => {
+            TimeLaw::Polynomial(_) => Self::polynomial(numbers).ok(),
+            TimeLaw::Harmonic { .. } => {
                 let &[amplitude, omega, phase, offset] = numbers else {
                     return None;
                 };
                 Self::harmonic(amplitude, omega, phase, offset).ok()
             }
-            Law::Steps { .. } => {
+            TimeLaw::Steps { .. } => {
                 let (start, steps) = numbers.split_first()?;
                 let (steps, _) = steps.as_chunks();
                 Self::steps(*start, steps).ok()
             }
-            Law::Table(_) => {
+            TimeLaw::Table(_) => {
                 let [times, values, curvatures] = [0, 1, 2].map(|from| every(3, from));
                 points(&times, &values, |earlier, later| later > earlier).ok()?;
-                Some(Self(Law::Table(Spline::of_points(
+                Some(Self(TimeLaw::Table(Spline::of_points(
                     times, values, curvatures,
                 ))))
             }
-            Law::Lines(_) => Self::lines(&every(2, 0), &every(2, 1)).ok(),
+            TimeLaw::Lines(_) => Self::lines(&every(2, 0), &every(2, 1)).ok(),
         }
     }
 
@@ -142,8 +142,8 @@ impl Function {
     #[must_use]
     pub fn parts(&self) -> Parts<'_> {
         match &self.0 {
-            Law::Polynomial(c) => Parts::Polynomial(c),
-            &Law::Harmonic {
+            TimeLaw::Polynomial(c) => Parts::Polynomial(c),
+            &TimeLaw::Harmonic {
                 amplitude,
                 omega,
                 phase,
@@ -154,11 +154,11 @@ impl Function {
                 phase,
                 offset,
             },
-            Law::Steps { start, steps } => Parts::Steps {
+            TimeLaw::Steps { start, steps } => Parts::Steps {
                 start: *start,
                 steps: steps.iter().map(|s| [s.from, s.to, s.by]).collect(),
             },
-            Law::Table(spline) => {
+            TimeLaw::Table(spline) => {
                 let (times, values, curvatures) = spline.points();
                 Parts::Spline {
                     times,
@@ -166,7 +166,7 @@ impl Function {
                     curvatures,
                 }
             }
-            Law::Lines(lines) => {
+            TimeLaw::Lines(lines) => {
                 let (times, values) = lines.points();
                 Parts::Lines { times, values }
             }

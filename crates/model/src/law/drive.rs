@@ -8,11 +8,13 @@
 //! is C/s. For a distance, s = |d|/L.
 
 use joints::spec::{ConstraintSpec, ForceSpec};
-use joints::{Constraint, ConstraintKernels, Definition, ForceElement, Plane, Recorded, Space3};
+use joints::{
+    Constraint, ConstraintKernels, Definition, ForceElement, Plane, RecordedNumber, Space3,
+};
 
 use super::number::Smooth;
 use super::{DriveForce, Law, LawError};
-use crate::element::{BodySpace, Evaluated, ForceKernels, Kinematics, PoseOf, RowsAt, TwistOf};
+use crate::element::{BodySpace, DriveScalar, ForceKernels, Kinematics, PoseOf, RowsAt, TwistOf};
 
 /// Largest number of bodies of a joint with a law; no joint of the library has more than three.
 const MOST_BODIES: usize = 4;
@@ -25,12 +27,12 @@ pub(crate) struct LawDrive<S: BodySpace> {
     drive: Box<dyn ConstraintKernels<S>>,
     facts: &'static ForceSpec,
     law: Law,
-    measured: Measured,
+    measured: MeasureReading,
 }
 
 /// How the row of the drive tells its measure.
 #[derive(Clone, Copy)]
-enum Measured {
+enum MeasureReading {
     /// It is Φ itself, at no motion.
     ByRow,
     /// The row of the joint takes the change of the measure since the start, whose value this is.
@@ -58,13 +60,13 @@ where
         });
     }
     let measured = if spec.turning {
-        Measured::Turn(0.0)
+        MeasureReading::Turn(0.0)
     } else {
-        Measured::ByRow
+        MeasureReading::ByRow
     };
     Ok(Box::new(LawDrive {
         drive: drive.boxed(),
-        facts: &Facts::<K, S>::SPEC,
+        facts: &LawFacts::<K, S>::SPEC,
         law,
         measured,
     }))
@@ -75,13 +77,13 @@ const OF_ROW: &str = "measure_0";
 
 impl<S: Kinematics> Definition<S> for LawDrive<S> {
     fn initialise(&mut self, x: &[PoseOf<S>]) {
-        if let Measured::Turn(start) = self.measured {
+        if let MeasureReading::Turn(start) = self.measured {
             // Since the start that was known before, which was none at first.
             let still = vec![S::twist(&[0.0; 6]); x.len()];
             let [cos, sin, _] = self.drive.turned(0, x, &still);
             self.drive.initialise(x);
             let angle = start + sin.atan2(cos);
-            self.measured = Measured::Turn(if self.law.since_start { 0.0 } else { angle });
+            self.measured = MeasureReading::Turn(if self.law.since_start { 0.0 } else { angle });
         } else {
             self.drive.initialise(x);
             let spec = self.drive.spec();
@@ -90,15 +92,17 @@ impl<S: Kinematics> Definition<S> for LawDrive<S> {
             let mut data = spec.data.iter().rev();
             let measure = spec.common.scene_type;
             self.measured = match data.find(|d| d.name == OF_ROW || d.name == measure) {
-                Some(datum) if datum.name == OF_ROW && self.law.since_start => Measured::ByRow,
+                Some(datum) if datum.name == OF_ROW && self.law.since_start => {
+                    MeasureReading::ByRow
+                }
                 Some(datum) if datum.name == OF_ROW => {
                     // Then its row is the measure itself.
                     numbers[datum.first] = 0.0;
                     self.drive.set_data(&numbers);
-                    Measured::ByRow
+                    MeasureReading::ByRow
                 }
-                _ if self.law.since_start => Measured::Kept(0.0),
-                found => Measured::Kept(found.map_or(0.0, |datum| numbers[datum.first])),
+                _ if self.law.since_start => MeasureReading::Kept(0.0),
+                found => MeasureReading::Kept(found.map_or(0.0, |datum| numbers[datum.first])),
             };
         }
     }
@@ -139,7 +143,7 @@ impl<T: Smooth> Along<T> {
 
 impl<S: Kinematics> LawDrive<S> {
     /// The measure at these poses. `f` is the time, and for an angle in space what is given of it.
-    fn along<T: Smooth + Evaluated>(&self, x: &[PoseOf<S, T>], f: &[[T; 3]]) -> Along<T> {
+    fn along<T: Smooth + DriveScalar>(&self, x: &[PoseOf<S, T>], f: &[[T; 3]]) -> Along<T> {
         let kernels = self.drive.as_ref();
         let stored = T::stored_by(kernels, |value, _| T::from(value));
         let at = |f| RowsAt {
@@ -155,7 +159,7 @@ impl<S: Kinematics> LawDrive<S> {
             kept: None,
             motion: [[zero; 3]; 2],
         };
-        if let (Measured::Turn(start), [_, angle, cos, sin, ..]) = (self.measured, f) {
+        if let (MeasureReading::Turn(start), [_, angle, cos, sin, ..]) = (self.measured, f) {
             along.measure = T::from(start) + angle[0];
             along.motion = [[cos[0], zero, zero], [sin[0], zero, zero]];
         }
@@ -164,12 +168,12 @@ impl<S: Kinematics> LawDrive<S> {
         let spec = kernels.spec();
         let mut entries = [zero; MOST];
         T::c(&here, &mut entries[..spec.c.len()]);
-        if !matches!(self.measured, Measured::Turn(_)) {
+        if !matches!(self.measured, MeasureReading::Turn(_)) {
             let mut phi = [zero];
             T::phi(&here, &mut phi);
             along.measure = phi[0];
         }
-        if let Measured::Kept(initial) = self.measured {
+        if let MeasureReading::Kept(initial) = self.measured {
             let (mut s_0, mut s_1) = ([zero], [zero]);
             T::component(&here, &mut s_0);
             T::component(&at(&[[one, zero, zero]]), &mut s_1);
@@ -200,7 +204,7 @@ impl<S: Kinematics> LawDrive<S> {
     }
 
     /// Entries of Q.
-    fn entries<T: Smooth + Evaluated>(
+    fn entries<T: Smooth + DriveScalar>(
         &self,
         x: &[PoseOf<S, T>],
         v: &[TwistOf<S, T>],
@@ -217,9 +221,9 @@ impl<S: Kinematics> LawDrive<S> {
 }
 
 /// The facts of a law on the measure of a drive.
-struct Facts<K, S>(std::marker::PhantomData<(K, S)>);
+struct LawFacts<K, S>(std::marker::PhantomData<(K, S)>);
 
-impl<K: Constraint<S>, S: Kinematics> Facts<K, S> {
+impl<K: Constraint<S>, S: Kinematics> LawFacts<K, S> {
     const SPEC: ForceSpec = Self::spec();
 
     /// All columns: which of them vanish is left to the columns of C.
@@ -293,10 +297,10 @@ macro_rules! force_kernels {
         impl ForceKernels<$space> for LawDrive<$space> {
             fn recorded_q(
                 &self,
-                x: &[PoseOf<$space, Recorded>],
-                v: &[TwistOf<$space, Recorded>],
-                f: &[[Recorded; 3]],
-                out: &mut [Recorded],
+                x: &[PoseOf<$space, RecordedNumber>],
+                v: &[TwistOf<$space, RecordedNumber>],
+                f: &[[RecordedNumber; 3]],
+                out: &mut [RecordedNumber],
             ) {
                 self.entries(x, v, f, out);
             }

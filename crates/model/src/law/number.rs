@@ -1,52 +1,55 @@
 //! Numbers on which laws are evaluated: doubles, dual numbers, and numbers that record their
 //! operations.
 
-use joints::{Real, Recorded};
+use joints::{Real, RecordedNumber};
 
-use crate::called::{Called, DriveState};
+use crate::called::{CalledFunction, DriveState};
 
-use super::{Function, Join, Undefined};
+use super::{Join, UnaryFunction, UndefinedValue};
 
 /// A number on which a law is evaluated.
-pub(crate) trait Number: Copy + From<f64> {
+pub(crate) trait LawNumber: Copy + From<f64> {
     /// Its value, if it has one.
     fn number(self) -> Option<f64>;
 
     /// A function of it.
-    fn apply(self, f: Function) -> Self;
+    fn apply(self, f: UnaryFunction) -> Self;
 
     /// A function of it and another number.
     fn join(self, j: Join, b: Self) -> Self;
 }
 
 /// A number with the derivatives of the same functions.
-pub(crate) trait Smooth: Number + Real {
+pub(crate) trait Smooth: LawNumber + Real {
     /// The derivative of a function at it.
-    fn slope(self, f: Function) -> Self;
+    fn slope(self, f: UnaryFunction) -> Self;
 
     /// The derivatives of a function of it and another number by both.
     fn slopes(self, j: Join, b: Self) -> [Self; 2];
 
     /// The value of a called function, which takes doubles alone.
-    fn called(function: &Called<DriveState, f64>, inputs: [Self; 3]) -> Result<Self, Undefined>;
+    fn called(
+        function: &CalledFunction<DriveState, f64>,
+        inputs: [Self; 3],
+    ) -> Result<Self, UndefinedValue>;
 }
 
 /// Functions and derivatives that a ring with roots has.
-fn arithmetic<T: Real>(a: T, f: Function) -> Option<T> {
+fn arithmetic<T: Real>(a: T, f: UnaryFunction) -> Option<T> {
     Some(match f {
-        Function::Negate => -a,
-        Function::Whole(n) => whole_power(a, n),
-        Function::Root => a.sqrt(),
+        UnaryFunction::Negate => -a,
+        UnaryFunction::Whole(n) => whole_power(a, n),
+        UnaryFunction::Root => a.sqrt(),
         _ => return None,
     })
 }
 
-fn arithmetic_slope<T: Real>(a: T, f: Function) -> Option<T> {
+fn arithmetic_slope<T: Real>(a: T, f: UnaryFunction) -> Option<T> {
     Some(match f {
-        Function::Negate => T::from(-1.0),
-        Function::Whole(0) => T::from(0.0),
-        Function::Whole(n) => T::from(f64::from(n)) * whole_power(a, n - 1),
-        Function::Root => T::from(0.5) / a.sqrt(),
+        UnaryFunction::Negate => T::from(-1.0),
+        UnaryFunction::Whole(0) => T::from(0.0),
+        UnaryFunction::Whole(n) => T::from(f64::from(n)) * whole_power(a, n - 1),
+        UnaryFunction::Root => T::from(0.5) / a.sqrt(),
         _ => return None,
     })
 }
@@ -83,22 +86,22 @@ fn whole_power<T: Real>(a: T, n: i32) -> T {
     }
 }
 
-impl Number for f64 {
+impl LawNumber for f64 {
     fn number(self) -> Option<f64> {
         Some(self)
     }
 
-    fn apply(self, f: Function) -> Self {
+    fn apply(self, f: UnaryFunction) -> Self {
         match f {
-            Function::Abs => self.abs(),
-            Function::Sin => self.sin(),
-            Function::Cos => self.cos(),
-            Function::Tan => self.tan(),
-            Function::Asin => self.asin(),
-            Function::Acos => self.acos(),
-            Function::Atan => self.atan(),
-            Function::Exp => self.exp(),
-            Function::Log => self.ln(),
+            UnaryFunction::Abs => self.abs(),
+            UnaryFunction::Sin => self.sin(),
+            UnaryFunction::Cos => self.cos(),
+            UnaryFunction::Tan => self.tan(),
+            UnaryFunction::Asin => self.asin(),
+            UnaryFunction::Acos => self.acos(),
+            UnaryFunction::Atan => self.atan(),
+            UnaryFunction::Exp => self.exp(),
+            UnaryFunction::Log => self.ln(),
             f => arithmetic(self, f).unwrap_or(f64::NAN),
         }
     }
@@ -116,18 +119,18 @@ impl Number for f64 {
 }
 
 impl Smooth for f64 {
-    fn slope(self, f: Function) -> Self {
+    fn slope(self, f: UnaryFunction) -> Self {
         match f {
-            Function::Abs if self == 0.0 => 0.0,
-            Function::Abs => self.signum(),
-            Function::Sin => self.cos(),
-            Function::Cos => -self.sin(),
-            Function::Tan => 1.0 + self.tan().powi(2),
-            Function::Asin => 1.0 / (1.0 - self * self).sqrt(),
-            Function::Acos => -1.0 / (1.0 - self * self).sqrt(),
-            Function::Atan => 1.0 / (1.0 + self * self),
-            Function::Exp => self.exp(),
-            Function::Log => 1.0 / self,
+            UnaryFunction::Abs if self == 0.0 => 0.0,
+            UnaryFunction::Abs => self.signum(),
+            UnaryFunction::Sin => self.cos(),
+            UnaryFunction::Cos => -self.sin(),
+            UnaryFunction::Tan => 1.0 + self.tan().powi(2),
+            UnaryFunction::Asin => 1.0 / (1.0 - self * self).sqrt(),
+            UnaryFunction::Acos => -1.0 / (1.0 - self * self).sqrt(),
+            UnaryFunction::Atan => 1.0 / (1.0 + self * self),
+            UnaryFunction::Exp => self.exp(),
+            UnaryFunction::Log => 1.0 / self,
             f => arithmetic_slope(self, f).unwrap_or(f64::NAN),
         }
     }
@@ -146,18 +149,21 @@ impl Smooth for f64 {
         }
     }
 
-    fn called(function: &Called<DriveState, f64>, inputs: [Self; 3]) -> Result<Self, Undefined> {
+    fn called(
+        function: &CalledFunction<DriveState, f64>,
+        inputs: [Self; 3],
+    ) -> Result<Self, UndefinedValue> {
         function.value(inputs)
     }
 }
 
 /// Records arithmetic and roots; all else is NaN: generators of code refuse laws.
-impl Number for Recorded {
+impl LawNumber for RecordedNumber {
     fn number(self) -> Option<f64> {
         None
     }
 
-    fn apply(self, f: Function) -> Self {
+    fn apply(self, f: UnaryFunction) -> Self {
         arithmetic(self, f).unwrap_or_else(|| Self::from(f64::NAN))
     }
 
@@ -166,8 +172,8 @@ impl Number for Recorded {
     }
 }
 
-impl Smooth for Recorded {
-    fn slope(self, f: Function) -> Self {
+impl Smooth for RecordedNumber {
+    fn slope(self, f: UnaryFunction) -> Self {
         arithmetic_slope(self, f).unwrap_or_else(|| Self::from(f64::NAN))
     }
 
@@ -175,8 +181,8 @@ impl Smooth for Recorded {
         arithmetic_slopes(self, j, b).unwrap_or_else(|| [Self::from(f64::NAN); 2])
     }
 
-    fn called(_: &Called<DriveState, f64>, _: [Self; 3]) -> Result<Self, Undefined> {
-        Err(Undefined::ValueAlone)
+    fn called(_: &CalledFunction<DriveState, f64>, _: [Self; 3]) -> Result<Self, UndefinedValue> {
+        Err(UndefinedValue::ValueAlone)
     }
 }
 
@@ -197,12 +203,12 @@ impl<T: Smooth> From<f64> for Slope<T> {
     }
 }
 
-impl<T: Smooth> Number for Slope<T> {
+impl<T: Smooth> LawNumber for Slope<T> {
     fn number(self) -> Option<f64> {
         self.value.number()
     }
 
-    fn apply(self, f: Function) -> Self {
+    fn apply(self, f: UnaryFunction) -> Self {
         let slope = self.value.slope(f);
         Self {
             value: self.value.apply(f),

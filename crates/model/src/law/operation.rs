@@ -12,14 +12,14 @@ pub enum Operation {
     /// Pushes the time (s).
     Time,
     /// Replaces the last number by a function of it.
-    Apply(Function),
+    Apply(UnaryFunction),
     /// Replaces the last two numbers by a result.
     Join(Join),
 }
 
 /// A function of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Function {
+pub enum UnaryFunction {
     /// `−a`
     Negate,
     /// `aⁿ`, a product.

@@ -2,8 +2,8 @@
 //! record what is done with them.
 
 use super::error::{DEEPEST, LawError};
-use super::number::{Number, Slope, Smooth};
-use super::{Operation, Undefined};
+use super::number::{LawNumber, Slope, Smooth};
+use super::{Operation, UndefinedValue};
 
 /// Operations that leave one number.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +35,7 @@ impl Program {
     pub(super) fn slope<T: Smooth>(
         &self,
         [measure, rate, t]: [T; 3],
-    ) -> Result<Slope<T>, Undefined> {
+    ) -> Result<Slope<T>, UndefinedValue> {
         let [zero, one] = [T::from(0.0), T::from(1.0)];
         let with = |value, by| Slope { value, by };
         let Slope { value, by } = self.evaluate([
@@ -52,12 +52,12 @@ impl Program {
 
     /// The value of the program for measure, rate and time. Every result on the way has to be
     /// finite.
-    pub(super) fn evaluate<T: Number>(&self, inputs: [T; 3]) -> Result<T, Undefined> {
+    pub(super) fn evaluate<T: LawNumber>(&self, inputs: [T; 3]) -> Result<T, UndefinedValue> {
         let mut stack = [inputs[0]; DEEPEST];
         let mut top = 0;
         let is_finite = |x: T| x.number().is_none_or(f64::is_finite);
         if !inputs.into_iter().all(is_finite) {
-            return Err(Undefined::Input);
+            return Err(UndefinedValue::Input);
         }
         for &operation in &self.0 {
             let taken = match operation {
@@ -79,9 +79,9 @@ impl Program {
             if !is_finite(result) {
                 let number = |x: T| x.number().unwrap_or_default();
                 return Err(match operation {
-                    Operation::Apply(f) => Undefined::Apply(f, number(a)),
-                    Operation::Join(j) => Undefined::Join(j, number(a), number(b)),
-                    _ => Undefined::Input,
+                    Operation::Apply(f) => UndefinedValue::Apply(f, number(a)),
+                    Operation::Join(j) => UndefinedValue::Join(j, number(a), number(b)),
+                    _ => UndefinedValue::Input,
                 });
             }
             stack[top] = result;

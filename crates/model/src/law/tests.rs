@@ -6,7 +6,7 @@ use joints::{Argument, Constraint, Pose, Twist};
 use super::*;
 use crate::element::ForceKernels;
 
-use {Function as F, Join as J};
+use {Join as J, UnaryFunction as F};
 use {Operation::Apply, Operation::Measure, Operation::Number as N, Operation::Rate};
 
 fn law(operations: &[Operation]) -> Law {
@@ -170,7 +170,7 @@ fn a_law_of_a_length_acts_along_it() {
     // Without a length there is no direction.
     force.q(&[Pose::GROUND; 2], &v, &TIME, &mut q);
     let why = force.drive(&[Pose::GROUND; 2], &v, &TIME).expect("a law");
-    assert!(q[3].is_nan() && why.force == Err(Undefined::Input));
+    assert!(q[3].is_nan() && why.force == Err(UndefinedValue::Input));
 }
 
 /// Central differences with h = 1e-5: an error of h² and of the rounding divided by h.
@@ -263,12 +263,12 @@ fn what_a_function_does_not_give_is_named() {
     assert_eq!(no_number.to_string(), "its function returned NaN");
     assert!(no_number.is_of_function());
     let infinite = value(&Law::called(|at| Ok(1.0 / (at.measure - 0.5))));
-    assert_eq!(infinite, Err(Undefined::Returned("inf".to_owned())));
+    assert_eq!(infinite, Err(UndefinedValue::Returned("inf".to_owned())));
     let failed = value(&Law::called(|_| Err("no sensor".into())));
-    assert_eq!(failed, Err(Undefined::Failed("no sensor".to_owned())));
+    assert_eq!(failed, Err(UndefinedValue::Failed("no sensor".to_owned())));
     let law = some_function();
-    assert_eq!(law.slopes(0.5, 0.0, 1.0), Err(Undefined::ValueAlone));
-    assert_eq!(law.value(f64::NAN, 0.0, 1.0), Err(Undefined::Input));
+    assert_eq!(law.slopes(0.5, 0.0, 1.0), Err(UndefinedValue::ValueAlone));
+    assert_eq!(law.value(f64::NAN, 0.0, 1.0), Err(UndefinedValue::Input));
     assert!(law == law.clone() && law != some_function());
 }
 

@@ -1,13 +1,13 @@
 //! Why a law or a called function has no finite value.
 
-use super::operation::{Function, Join};
+use super::operation::{Join, UnaryFunction};
 
 /// Why a law has no finite value, or no derivatives.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Undefined {
+pub enum UndefinedValue {
     /// A function of one number.
-    Apply(Function, f64),
+    Apply(UnaryFunction, f64),
     /// A function of two numbers.
     Join(Join, f64, f64),
     /// The measure has no direction, or a number is not finite.
@@ -20,7 +20,7 @@ pub enum Undefined {
     ValueAlone,
 }
 
-impl Undefined {
+impl UndefinedValue {
     /// Whether a called function is the cause: another state does not mend it.
     #[must_use]
     pub fn is_of_function(&self) -> bool {
@@ -28,18 +28,18 @@ impl Undefined {
     }
 }
 
-impl std::error::Error for Undefined {}
+impl std::error::Error for UndefinedValue {}
 
-impl std::fmt::Display for Undefined {
+impl std::fmt::Display for UndefinedValue {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Join(Join::Divide, _, 0.0) => f.write_str("division by zero"),
-            Self::Apply(Function::Log, a) => write!(f, "log({a})"),
-            Self::Apply(Function::Root, a) => write!(f, "sqrt({a})"),
-            Self::Apply(Function::Asin, a) => write!(f, "asin({a})"),
-            Self::Apply(Function::Acos, a) => write!(f, "acos({a})"),
-            Self::Apply(Function::Exp, a) => write!(f, "exp({a})"),
-            Self::Apply(Function::Whole(n), a) => write!(f, "{a}^{n}"),
+            Self::Apply(UnaryFunction::Log, a) => write!(f, "log({a})"),
+            Self::Apply(UnaryFunction::Root, a) => write!(f, "sqrt({a})"),
+            Self::Apply(UnaryFunction::Asin, a) => write!(f, "asin({a})"),
+            Self::Apply(UnaryFunction::Acos, a) => write!(f, "acos({a})"),
+            Self::Apply(UnaryFunction::Exp, a) => write!(f, "exp({a})"),
+            Self::Apply(UnaryFunction::Whole(n), a) => write!(f, "{a}^{n}"),
             Self::Join(Join::Power, a, b) => write!(f, "{a}^{b}"),
             Self::Join(Join::Angle, a, b) => write!(f, "atan2({a}, {b})"),
             Self::Apply(..) | Self::Join(..) => f.write_str("a result that is too large"),

@@ -8,15 +8,15 @@ use super::check;
 use super::elements::{CountedAngle, Owner};
 use super::turn;
 use super::work::held_bodies;
-use super::{BuildError, Elements, FunctionForm, Given, Mechanism, TimeFunction, initialise};
+use super::{BuildError, Elements, FunctionForm, KernelInput, Mechanism, TimeFunction, initialise};
 use crate::body::{BodyRecord, BodyRef, DescribedBody};
-use crate::description::{AnyDescription, Described};
+use crate::description::{AnyDescription, MechanismDescription};
 use crate::element::{
-    AnyForce, BodySpace, Framed, PlacedConstraint, PlacedForce, Site, TurnedSlots,
+    AnyForce, BodySpace, FramedConstraint, PlacedConstraint, PlacedForce, Site, TurnedSlots,
 };
 use crate::function::Function;
 use crate::group::{ConstraintGroup, ConstraintId, ConstraintKind};
-use crate::observed::Observed;
+use crate::observed::Observables;
 use crate::rows::RowRanges;
 use crate::space::SpaceKind;
 use crate::system::{Layout, RowLabel};
@@ -29,7 +29,7 @@ pub trait Buildable {
     fn built(&self) -> Result<Mechanism, Vec<BuildError>>;
 }
 
-impl<S: BodySpace> Buildable for Described<S> {
+impl<S: BodySpace> Buildable for MechanismDescription<S> {
     fn built(&self) -> Result<Mechanism, Vec<BuildError>> {
         let bodies = self.records();
         let errors = check::faults(self, &bodies);
@@ -153,7 +153,7 @@ impl Builder {
     /// Adds those joints whose definitions are of this kind.
     fn joints<S: BodySpace>(
         &mut self,
-        d: &Described<S>,
+        d: &MechanismDescription<S>,
         bodies: &[BodyRecord],
         is_of_kind: impl Fn(&ConstraintSpec) -> bool,
     ) {
@@ -169,7 +169,7 @@ impl Builder {
         name: &str,
         kind: ConstraintKind,
         bodies: &[BodyRef],
-        framed: Framed,
+        framed: FramedConstraint,
         functions: &[Function],
         tolerance: Option<f64>,
     ) {
@@ -291,7 +291,7 @@ impl Builder {
                 &[FunctionForm::Value]
             };
             let given = forms.iter().map(|&form| {
-                Given::Function(TimeFunction {
+                KernelInput::Function(TimeFunction {
                     function: function.clone(),
                     offset: offset(function),
                     form,
@@ -311,9 +311,11 @@ impl Builder {
     fn count(&mut self, owner: Owner, turns: usize, site: &mut Site) {
         for number in 0..turns {
             let first = self.elements.given.len();
-            self.elements
-                .given
-                .extend([Given::Counted, Given::Counted, Given::Counted]);
+            self.elements.given.extend([
+                KernelInput::Counted,
+                KernelInput::Counted,
+                KernelInput::Counted,
+            ]);
             self.elements.counted.push(CountedAngle {
                 owner,
                 number,
@@ -343,7 +345,7 @@ impl Builder {
             mass: mass.flat_map(inertia).collect(),
             weight,
             tolerance: Tolerance::default(),
-            observed: Observed::default(),
+            observed: Observables::default(),
             reach: vec![0.0; bodies.len()],
             held: held_bodies(&self.elements, &self.layout, bodies.len()),
             elements: self.elements,

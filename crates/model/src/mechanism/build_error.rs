@@ -4,7 +4,7 @@ use joints::LARGEST;
 
 use crate::codes::Code;
 use crate::observed::MeasureKind;
-use crate::tolerance::Stated;
+use crate::tolerance::ToleranceScope;
 
 /// One fault of a description.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -83,7 +83,7 @@ pub enum BuildError {
     #[error("{of}: {field} is {value:?}, need a finite number > 0 up to {LARGEST:e}")]
     Tolerance {
         /// The item for which it is stated.
-        of: Stated,
+        of: ToleranceScope,
         /// Name of the number.
         field: &'static str,
         /// The number.

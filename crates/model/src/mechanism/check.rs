@@ -7,14 +7,17 @@ use joints::spec::{ConstraintSpec, Role, Spec};
 
 use super::BuildError;
 use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, SpatialBody};
-use crate::description::Described;
+use crate::description::MechanismDescription;
 use crate::element::{BodySpace, ConstraintKernels};
-use crate::observed::Observed;
+use crate::observed::Observables;
 use crate::principal::Principal;
-use crate::tolerance::{Stated, Tolerance};
+use crate::tolerance::{Tolerance, ToleranceScope};
 
 /// All faults of a description; `records` are its bodies.
-pub(super) fn faults<S: BodySpace>(d: &Described<S>, records: &[BodyRecord]) -> Vec<BuildError> {
+pub(super) fn faults<S: BodySpace>(
+    d: &MechanismDescription<S>,
+    records: &[BodyRecord],
+) -> Vec<BuildError> {
     let mut errors = Vec::new();
     check_bodies(d, records, &mut errors);
     check_names(d, records, &mut errors);
@@ -40,7 +43,7 @@ pub(super) fn tolerance(tolerance: Tolerance) -> Result<(), BuildError> {
         .filter_map(|(field, value)| Some((field, value.filter(is_wrong)?)));
     wrong.next().map_or(Ok(()), |(field, value)| {
         Err(BuildError::Tolerance {
-            of: Stated::Scene,
+            of: ToleranceScope::Scene,
             field,
             value,
         })
@@ -49,19 +52,19 @@ pub(super) fn tolerance(tolerance: Tolerance) -> Result<(), BuildError> {
 
 /// Reports every tolerance of a description that is not a finite number > 0.
 fn check_tolerances<S: BodySpace>(
-    d: &Described<S>,
+    d: &MechanismDescription<S>,
     records: &[BodyRecord],
     errors: &mut Vec<BuildError>,
 ) {
     errors.extend(tolerance(d.tolerance).err());
     let bodies = records.iter();
-    let bodies = bodies.map(|b| (b.tolerance, Stated::Body(b.name.clone())));
+    let bodies = bodies.map(|b| (b.tolerance, ToleranceScope::Body(b.name.clone())));
     let joints = d.joints.iter();
-    let joints = joints.map(|j| (j.tolerance, Stated::Joint(j.name.clone())));
+    let joints = joints.map(|j| (j.tolerance, ToleranceScope::Joint(j.name.clone())));
     let drives = d.drives.iter();
-    let drives = drives.map(|x| (x.tolerance, Stated::Drive(x.name.clone())));
+    let drives = drives.map(|x| (x.tolerance, ToleranceScope::Drive(x.name.clone())));
     let markers = d.observed.markers.iter();
-    let markers = markers.map(|m| (m.tolerance, Stated::Marker(m.name.clone())));
+    let markers = markers.map(|m| (m.tolerance, ToleranceScope::Marker(m.name.clone())));
     for (value, of) in bodies.chain(joints).chain(drives).chain(markers) {
         if let Some(value) = value.filter(is_wrong) {
             let field = "tolerance";
@@ -71,7 +74,7 @@ fn check_tolerances<S: BodySpace>(
 }
 
 fn check_bodies<S: BodySpace>(
-    d: &Described<S>,
+    d: &MechanismDescription<S>,
     records: &[BodyRecord],
     errors: &mut Vec<BuildError>,
 ) {
@@ -181,7 +184,7 @@ fn check_spatial(b: &SpatialBody) -> Vec<BuildError> {
 }
 
 fn check_names<S: BodySpace>(
-    d: &Described<S>,
+    d: &MechanismDescription<S>,
     records: &[BodyRecord],
     errors: &mut Vec<BuildError>,
 ) {
@@ -210,7 +213,7 @@ fn check_names<S: BodySpace>(
 }
 
 fn check_places<S: BodySpace>(
-    d: &Described<S>,
+    d: &MechanismDescription<S>,
     records: &[BodyRecord],
     errors: &mut Vec<BuildError>,
 ) {
@@ -324,8 +327,8 @@ fn check_place<S: BodySpace>(
 }
 
 /// Reports markers and measures that cannot be evaluated.
-fn check_observed<S: BodySpace>(d: &Described<S>, errors: &mut Vec<BuildError>) {
-    let Observed { markers, measures } = &d.observed;
+fn check_observed<S: BodySpace>(d: &MechanismDescription<S>, errors: &mut Vec<BuildError>) {
+    let Observables { markers, measures } = &d.observed;
     for marker in markers {
         let name = || marker.name.clone();
         if let Some(body) = marker.body.moving().filter(|k| *k >= d.bodies.len()) {

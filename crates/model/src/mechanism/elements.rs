@@ -9,7 +9,7 @@ pub(crate) struct Elements {
     pub(crate) constraints: Vec<PlacedConstraint>,
     pub(crate) forces: Vec<PlacedForce>,
     /// What kernels are given besides poses and velocities, element by element.
-    pub(crate) given: Vec<Given>,
+    pub(crate) given: Vec<KernelInput>,
     /// The angles that count their turns: those of constraints, then those of forces.
     pub(crate) counted: Vec<CountedAngle>,
     /// Constant entries of C, zero elsewhere.
@@ -28,13 +28,13 @@ impl Elements {
 
     /// The functions of time as passed to the elements.
     pub(crate) fn functions(&self) -> impl Iterator<Item = &TimeFunction> {
-        self.given.iter().filter_map(Given::function)
+        self.given.iter().filter_map(KernelInput::function)
     }
 }
 
 /// What the kernels of an element are given besides poses and velocities.
 #[derive(Clone)]
-pub(crate) enum Given {
+pub(crate) enum KernelInput {
     /// A function of time.
     Function(TimeFunction),
     /// One of three values of a counted angle, which [`System::pose`] sets.
@@ -43,7 +43,7 @@ pub(crate) enum Given {
     Counted,
 }
 
-impl Given {
+impl KernelInput {
     pub(crate) fn function(&self) -> Option<&TimeFunction> {
         match self {
             Self::Function(function) => Some(function),

@@ -6,7 +6,7 @@ use joints::spec::{ForceSpec, Unit};
 use super::Mechanism;
 use crate::body::BodyRef;
 use crate::element::PlacedForce;
-use crate::law::{DriveForce, Undefined};
+use crate::law::{DriveForce, UndefinedValue};
 use crate::system::Scratch;
 
 /// The applied forces of a mechanism, without the weight.
@@ -61,7 +61,7 @@ pub enum UndefinedForce {
         /// Its name.
         name: String,
         /// Why.
-        why: Undefined,
+        why: UndefinedValue,
     },
     /// A drive by a law.
     #[error("the law of drive `{name}` ({why}, at measure = {measure:.6}, rate = {rate:.6})")]
@@ -73,7 +73,7 @@ pub enum UndefinedForce {
         /// The rate of it (m/s or rad/s).
         rate: f64,
         /// Why.
-        why: Undefined,
+        why: UndefinedValue,
     },
 }
 

@@ -46,7 +46,7 @@ impl System for Mechanism {
 
     fn pose(&self, t: f64, q: &[f64], s: &mut Scratch) {
         s.t = t;
-        let turns = || note(Counted::Trigonometry);
+        let turns = || note(WorkKind::Trigonometry);
         s.bodies.take(self.space(), q, &self.held, turns);
         s.slots.take(self.elements.sites(), &s.bodies);
         if s.jets_at != t {
@@ -54,7 +54,7 @@ impl System for Mechanism {
             for (jet, given) in s.slots.jets.iter_mut().zip(&self.elements.given) {
                 if let Some(f) = given.function() {
                     *jet = f.jet(t);
-                    note(Counted::Function);
+                    note(WorkKind::Function);
                 }
             }
         }
@@ -157,7 +157,7 @@ pub(crate) fn gyroscopic<T: Ring>([jx, jy, jz]: [f64; 3], [x, y, z]: [T; 3]) -> 
 
 /// Kinds of work that tests count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Counted {
+pub(super) enum WorkKind {
     /// A sine and a cosine.
     Trigonometry,
     /// A function of time with its derivatives.
@@ -166,7 +166,7 @@ pub(super) enum Counted {
 
 /// Counts one piece of work, in tests of this crate only.
 #[inline]
-fn note(work: Counted) {
+fn note(work: WorkKind) {
     #[cfg(test)]
     tests::COUNTS.with_borrow_mut(|counts| counts[work as usize] += 1);
     let _ = work;

@@ -5,7 +5,7 @@
 use linalg::DisjointSets;
 
 use super::build::Builder;
-use super::{FunctionForm, Given, Mechanism};
+use super::{FunctionForm, KernelInput, Mechanism};
 use crate::body::BodyRef;
 use crate::element::{PlacedForce, Site};
 use crate::function::Function;
@@ -213,7 +213,7 @@ fn assembled<'a>(
 /// Functions of time of an element.
 fn laws(whole: &Mechanism, site: &Site) -> Vec<Function> {
     let given = whole.elements.given[site.functions.clone()].iter();
-    let functions = given.filter_map(Given::function);
+    let functions = given.filter_map(KernelInput::function);
     let whole = functions.filter(|f| f.form != FunctionForm::Sine);
     whole.map(|f| f.function.clone()).collect()
 }

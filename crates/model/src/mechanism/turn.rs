@@ -4,7 +4,7 @@ use joints::Space3;
 use joints::spec::DatumShape;
 
 use crate::body::{BodyRecord, BodyRef};
-use crate::element::{AnyConstraint, ConstraintKernels, Framed};
+use crate::element::{AnyConstraint, ConstraintKernels, FramedConstraint};
 use crate::principal::Principal;
 
 /// The principal axes of the body in each slot of an element, where they are not those of a frame.
@@ -18,8 +18,8 @@ pub(super) fn constraint(
     element: AnyConstraint,
     bodies: &[BodyRecord],
     slots: &[BodyRef],
-) -> Framed {
-    Framed::new(element, |element| {
+) -> FramedConstraint {
+    FramedConstraint::new(element, |element| {
         let AnyConstraint::Space3(kernels) = element else {
             return;
         };

@@ -1,6 +1,6 @@
 //! What two recordings share that differ in their numbers only.
 
-use joints::recorded::{Operation, Recorded};
+use joints::recorded::{Operation, RecordedNumber};
 
 use super::RecordedEquations;
 
@@ -24,7 +24,7 @@ impl Digest {
     }
 
     /// A list with its length, so that lists cannot run into each other.
-    fn list(&mut self, values: &[Recorded]) {
+    fn list(&mut self, values: &[RecordedNumber]) {
         self.take(&[values.len()]);
         values.iter().for_each(|r| self.take(&[r.place()]));
     }

@@ -40,14 +40,14 @@ const FACTOR: f64 = 10.0;
 const STILL: f64 = 1e-10;
 
 /// Residuals of rows at a configuration, and their derivatives by velocities.
-struct Linearised {
+struct Linearisation {
     /// In metres, angles times the size.
     residual: Vec<f64>,
     /// One row for each residual.
     c: Matrix,
 }
 
-impl Linearised {
+impl Linearisation {
     fn square(&self) -> f64 {
         self.residual.iter().map(|r| r * r).sum()
     }
@@ -61,7 +61,7 @@ fn linearised(
     rows: &[usize],
     q: &[f64],
     size: f64,
-) -> Result<Linearised, StartError> {
+) -> Result<Linearisation, StartError> {
     let layout = mechanism.layout();
     mechanism.pose(0.0, q, s);
     mechanism.phi(s);
@@ -96,7 +96,7 @@ fn linearised(
             c.row_mut(k).iter_mut().for_each(|x| *x *= size);
         }
     }
-    Ok(Linearised { residual, c })
+    Ok(Linearisation { residual, c })
 }
 
 /// Whether all axes that the joints keep parallel at q point as described, not the other way, and

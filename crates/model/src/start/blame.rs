@@ -3,7 +3,7 @@
 
 use rank::Circuit;
 
-use super::conflict::{CANCELLED, HeldVelocity, Locked, VelocityConflict};
+use super::conflict::{CANCELLED, HeldVelocity, LockedBodies, VelocityConflict};
 use super::dependent::{DependentVelocities, Equations};
 use super::error::StartError;
 use super::options::CorrectionLimit;
@@ -105,7 +105,7 @@ impl Start<'_> {
 
     /// The bodies of these velocities, if the rows, which are independent, leave them none but
     /// zero.
-    fn locked(&self, rows: &[usize], columns: &[usize]) -> Option<Locked> {
+    fn locked(&self, rows: &[usize], columns: &[usize]) -> Option<LockedBodies> {
         let Equations { mechanism, s, .. } = &self.equations;
         if rows.len() < columns.len() || rows.iter().any(|&i| s.b[i] != 0.0) {
             return None;
@@ -115,7 +115,7 @@ impl Start<'_> {
             .iter()
             .map(|&j| &mechanism.bodies()[space.body_of(j)].name);
         let joints = rows.iter().map(|&i| &mechanism.layout().labels[i].joint);
-        Some(Locked {
+        Some(LockedBodies {
             bodies: each_once(bodies),
             joints: each_once(joints),
         })

@@ -35,13 +35,13 @@ pub struct VelocityConflict {
     /// Whether there are velocities compatible with those that `keep` holds.
     pub can_be_corrected: bool,
     /// Why only zero is possible, if that is so.
-    pub locked: Option<Locked>,
+    pub locked: Option<LockedBodies>,
 }
 
 /// Bodies that independent rows leave no velocity, with mobility 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Locked {
+pub struct LockedBodies {
     /// The bodies.
     pub bodies: Vec<String>,
     /// The joints and drives of the rows.
@@ -131,7 +131,7 @@ impl VelocityConflict {
             (plain, _) => plain,
         };
         let fact = format!("`{coordinate}` of body `{body}` is {held} {given_as}");
-        if let Some(Locked { bodies, joints }) = &self.locked {
+        if let Some(LockedBodies { bodies, joints }) = &self.locked {
             let names = |all: &[String]| {
                 let quoted = all.iter().map(|name| format!("`{name}`"));
                 named(&quoted.collect::<Vec<_>>())

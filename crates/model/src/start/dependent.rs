@@ -23,7 +23,7 @@ use crate::mechanism::Mechanism;
 use crate::size::size_of;
 use crate::space::norm;
 use crate::system::{Scratch, System};
-use crate::uncertainty::Known;
+use crate::uncertainty::ConfigurationAccuracy;
 
 /// Sets with more rows than this are solved by their Schur complement: dense factors would take
 /// seconds.
@@ -214,7 +214,7 @@ impl<'m> Equations<'m> {
         known.get_or_insert_with(|| {
             mechanism
                 .scales(s)
-                .uncertainty_of_entries(*size, Known::AsStored)
+                .uncertainty_of_entries(*size, ConfigurationAccuracy::AsStored)
         });
     }
 
@@ -234,14 +234,14 @@ pub(super) fn exceeds(size: f64, limit: f64) -> bool {
 
 /// Rows, and the velocities that follow in them.
 pub(super) struct DependentVelocities {
-    parts: Vec<Part>,
+    parts: Vec<RowBlock>,
     /// The remaining combinations of rows of small sets: no velocity that follows changes these
     /// sums.
     pub(super) circuits: Vec<Circuit>,
 }
 
 /// Rows that are solved together.
-pub(super) struct Part {
+pub(super) struct RowBlock {
     /// Rows that are independent in these columns.
     rows: Vec<usize>,
     columns: Vec<usize>,
@@ -274,7 +274,7 @@ impl DependentVelocities {
                 let masses: Vec<f64> = columns.iter().map(|&j| of.weights[j].recip()).collect();
                 dependent
                     .parts
-                    .extend(Part::schur(of, &set, columns, &masses)?);
+                    .extend(RowBlock::schur(of, &set, columns, &masses)?);
                 continue;
             }
             let exponents = of.mechanism.layout().dimension_scaling(of.size).cols;
@@ -304,7 +304,7 @@ impl DependentVelocities {
             let rows: Vec<usize> = decision.kept.iter().map(|&k| set[k]).collect();
             if !rows.is_empty() {
                 let c = of.matrix(&rows, &columns);
-                dependent.parts.push(Part {
+                dependent.parts.push(RowBlock {
                     rows,
                     columns,
                     solver: Solver::Dense(c),
@@ -341,7 +341,7 @@ impl DependentVelocities {
     }
 }
 
-impl Part {
+impl RowBlock {
     /// Prepares a large set; returns `None` if no row of it has significant entries in these
     /// columns.
     pub(super) fn schur(

@@ -11,7 +11,7 @@
 use linalg::Matrix;
 
 use super::conflict::VelocityConflict;
-use super::dependent::{DENSE_ROWS, DependentVelocities, Equations, Part, exceeds, shortest};
+use super::dependent::{DENSE_ROWS, DependentVelocities, Equations, RowBlock, exceeds, shortest};
 use super::error::StartError;
 use super::metric::{ROUNDINGS, SMALL_CORRECTION, largest};
 use super::options::{CorrectionLimit, KeepLevel, StartOptions, kept_columns};
@@ -271,7 +271,7 @@ impl<'m> Start<'m> {
             |&j: &usize| of.weights[j].recip() * if hold[j] == Hold::No { CHEAP } else { 1.0 };
         let masses: Vec<f64> = columns.iter().map(cost).collect();
         let mut moved = v.to_vec();
-        if let Some(mut part) = Part::schur(of, rows, columns.clone(), &masses)? {
+        if let Some(mut part) = RowBlock::schur(of, rows, columns.clone(), &masses)? {
             part.follow(of, &mut moved)?;
         }
         for &j in columns.iter().filter(|&&j| hold[j] == Hold::Given) {

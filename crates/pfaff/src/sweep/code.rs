@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use dynamics::code::SharedCode;
-use dynamics::{CodeMismatch, MotionOptions, Prepared, SceneCode};
+use dynamics::{CodeMismatch, MotionOptions, PreparedMechanism, SceneCode};
 use model::Registry;
 use scene_codegen::{CodeError, LANES, NotAnInput, Tape};
 
@@ -50,7 +50,7 @@ impl SweepCode {
             }
         };
         let code = Self { tape };
-        let fits = code.fit(described.prepared().clone(), Prepared::with_code);
+        let fits = code.fit(described.prepared().clone(), PreparedMechanism::with_code);
         fits.map_err(|e| e.to_string())?;
         Ok(code)
     }
@@ -77,9 +77,9 @@ impl SweepCode {
     ) -> Option<Tape> {
         let prepared = study.prepared.clone();
         let fits = if described.is_some_and(|described| described.decides(&prepared)) {
-            self.fit(prepared, Prepared::with_known_code)
+            self.fit(prepared, PreparedMechanism::with_known_code)
         } else {
-            self.fit(prepared, Prepared::with_code)
+            self.fit(prepared, PreparedMechanism::with_code)
         };
         let (tape, prepared) = fits.ok()?;
         prepared.code_for(options).ok()?;
@@ -89,9 +89,9 @@ impl SweepCode {
 
     fn fit(
         &self,
-        prepared: Prepared,
-        with: fn(Prepared, Arc<SharedCode>) -> Result<Prepared, CodeMismatch>,
-    ) -> Result<(Tape, Prepared), CodeMismatch> {
+        prepared: PreparedMechanism,
+        with: fn(PreparedMechanism, Arc<SharedCode>) -> Result<PreparedMechanism, CodeMismatch>,
+    ) -> Result<(Tape, PreparedMechanism), CodeMismatch> {
         let tape = self.tape.of_mechanism(&prepared.mechanism)?;
         let spec = tape.spec();
         let moved = prepared.on_rows(&spec.kept, &spec.position_kept);

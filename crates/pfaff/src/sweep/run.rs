@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use dynamics::plan::{Reactions, Rows, Verdicts};
 use dynamics::{
-    Event, EventKind, MotionFault, MotionOptions, Plan, Prepared, Sample, SceneCode, Stop, Summary,
-    Wanted,
+    Event, EventKind, MotionFault, MotionOptions, OutputRequest, Plan, PreparedMechanism, Sample,
+    SceneCode, Stop, Summary,
 };
 use model::space::norm;
 use model::{Mechanism, Reaction, System};
@@ -40,7 +40,7 @@ pub(super) struct Described {
 impl Described {
     /// `None` if it cannot be analysed.
     pub(super) fn new(study: Study) -> Option<Self> {
-        let Prepared {
+        let PreparedMechanism {
             mechanism,
             q,
             decided,
@@ -53,12 +53,12 @@ impl Described {
         })
     }
 
-    pub(super) fn prepared(&self) -> &Prepared {
+    pub(super) fn prepared(&self) -> &PreparedMechanism {
         &self.study.prepared
     }
 
     /// Whether a run has its constraints and its configuration, and so its decisions.
-    pub(super) fn decides(&self, run: &Prepared) -> bool {
+    pub(super) fn decides(&self, run: &PreparedMechanism) -> bool {
         let own = self.prepared();
         let both = own.decided.as_ref().zip(run.decided.as_ref());
         both.is_some_and(|(own, of_run)| Arc::ptr_eq(own, of_run)) && own.q == run.q
@@ -96,7 +96,7 @@ impl Begun {
         mut each: impl FnMut(&Sample<'_, '_>) -> ControlFlow<()>,
     ) -> Ended {
         let mut watch = Watch::new(self);
-        let wanted = Wanted {
+        let wanted = OutputRequest {
             rows: Rows::Every,
             accelerations: false,
             reactions: Reactions::Of(watch.names()),

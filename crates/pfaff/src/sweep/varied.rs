@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
 
-use dynamics::Prepared;
+use dynamics::PreparedMechanism;
 use model::{Mechanism, Registry, System};
 use report::sweep::{SweepPlan, digest};
 use report::{SweepRow, SweepStatus};
@@ -257,7 +257,7 @@ impl<'r> Sweep<'r> {
         let mut study = assembled.prepare_after(&RunOptions::default(), other)?;
         let options = study.options.clone().ok_or(StudyError::NoEnd)?;
         options.check()?;
-        let Prepared {
+        let PreparedMechanism {
             mechanism,
             q,
             v,

@@ -181,7 +181,7 @@ fn lower_rank(
     s: &model::Scratch,
     q: &[f64],
     doubt: &Doubt,
-    exact: &dynamics::Prepared,
+    exact: &dynamics::PreparedMechanism,
 ) -> Result<(Vec<usize>, Vec<usize>), ToleranceError> {
     let (all, holonomic) = (&exact.decision, &exact.position_decision);
     let fewer = match *doubt {

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use dynamics::Prepared;
+use dynamics::PreparedMechanism;
 use report::{CurveName, WorkPrecisionRow};
 
 use super::observation::Observation;
@@ -22,7 +22,7 @@ pub trait Rival {
     /// The reason why it did not reach the last instant, as text: given up or stopped.
     fn run(
         &self,
-        start: &Prepared,
+        start: &PreparedMechanism,
         tolerance: f64,
         instants: &[f64],
         budget: Duration,

@@ -4,7 +4,7 @@
 //! the result is never undecided.
 
 use super::certificate::{Certificate, Grounds, NearlyRedundant};
-use super::graded::Graded;
+use super::graded::RowLevels;
 use super::modular::{ExactBasis, Integers, exact_basis};
 use super::{Evidence, RankDecision, RankError, RankStatus, check_finite, gap, projected};
 use crate::limits::{COEFFICIENT_BOUND, EXCHANGE_ROUNDS, NEARLY_REDUNDANT};
@@ -46,7 +46,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
     // Below this limit the singular values are noise of double-double; there only the primes
     // decide, and a proposal is not needed.
     let floor = 16.0 * (m.max(1) as f64) * (n.max(1) as f64) * Dd::EPSILON;
-    let graded = Graded::new(&DdMatrix::from(&scaled), floor);
+    let graded = RowLevels::new(&DdMatrix::from(&scaled), floor);
 
     let integers = Integers::new(c, &scaling);
     let mut order = graded.kept.clone();

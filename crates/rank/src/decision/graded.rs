@@ -36,7 +36,7 @@ struct Level {
 }
 
 /// Rows by levels, and the remainder below the floor.
-pub(super) struct Graded {
+pub(super) struct RowLevels {
     levels: Vec<Level>,
     /// Rows that belong to no level, ascending.
     pub(super) left: Vec<usize>,
@@ -50,7 +50,7 @@ pub(super) struct Graded {
     left_sigma: Vec<f64>,
 }
 
-impl Graded {
+impl RowLevels {
     /// Removes levels from the equilibrated matrix `c` while a singular value is above `floor`.
     pub(super) fn new(c: &DdMatrix, floor: f64) -> Self {
         Self::up_to(c, floor, c.ncols(), None)
@@ -91,7 +91,7 @@ impl Graded {
                 g.left_sigma = sigma;
                 return g;
             }
-            let step = Step::new(&normal, significant);
+            let step = LevelReduction::new(&normal, significant);
             let rows_of = |local: &[usize]| local.iter().map(|&i| g.left[i]).collect::<Vec<_>>();
             let (kept, left) = (rows_of(&step.kept), rows_of(&step.dropped));
             let rows = normal.select_rows(&step.kept).hi();
@@ -261,7 +261,7 @@ impl Graded {
 
 /// One level: the dependent rows of a matrix scaled to unit size, expressed in its independent
 /// rows.
-struct Step {
+struct LevelReduction {
     kept: Vec<usize>,
     dropped: Vec<usize>,
     /// `S_K`
@@ -273,7 +273,7 @@ struct Step {
     error: f64,
 }
 
-impl Step {
+impl LevelReduction {
     fn new(s: &DdMatrix, rank: usize) -> Self {
         let leading = s.hi();
         let rows = RowBasis::most_independent(leading.clone(), rank);

@@ -6,7 +6,7 @@
 //! uncertainty of the data, never with the rounding of `f64`.
 
 use super::certificate::{Certificate, Grounds, NearlyRedundant};
-use super::graded::Graded;
+use super::graded::RowLevels;
 use super::perturbation;
 use super::{
     Accuracy, Doubt, Evidence, RankDecision, RankError, RankStatus, Reading, Spectrum,
@@ -67,7 +67,7 @@ pub fn certify_within<'a>(
     );
     let tolerance = spread.max(NOISE_FACTOR * uncertainty);
     let required = CLEAR_OF_DATA * tolerance;
-    let graded = Graded::new(&c.scaled(&scaling), tolerance);
+    let graded = RowLevels::new(&c.scaled(&scaling), tolerance);
 
     let sigma = graded.singular_values(m.min(n));
     let rank = graded.kept.len();
@@ -97,7 +97,7 @@ pub fn certify_within<'a>(
         RankStatus::Decided
     };
 
-    let rule = Found {
+    let rule = RankEvidence {
         scaling,
         status,
         tolerance,
@@ -149,7 +149,7 @@ pub fn certify_rank(
     check_finite(&leading)?;
     let known = Accuracy::Entries(uncertainty);
     let spread = known.equilibrated(&leading, &reading.scaling)?;
-    let graded = Graded::of_rank(&c.scaled(&reading.scaling), reading.rank, &reading.matrix);
+    let graded = RowLevels::of_rank(&c.scaled(&reading.scaling), reading.rank, &reading.matrix);
     let (m, n) = (c.nrows(), c.ncols());
     let sigma = graded.singular_values(m.min(n));
     let least = reading.rank.checked_sub(1).map(|r| sigma[r]);
@@ -157,7 +157,7 @@ pub fn certify_rank(
         return Ok(None);
     }
     let sigma_next = sigma.get(reading.rank).copied().unwrap_or(0.0);
-    let found = Found {
+    let found = RankEvidence {
         scaling: reading.scaling.clone(),
         status: reading.status,
         tolerance: reading.noise,
@@ -173,7 +173,7 @@ pub fn certify_rank(
 }
 
 /// A rank and its evidence.
-struct Found {
+struct RankEvidence {
     scaling: Scaling,
     status: RankStatus,
     tolerance: f64,
@@ -182,11 +182,11 @@ struct Found {
     grounds: Grounds,
 }
 
-impl Found {
+impl RankEvidence {
     /// The decision with its certificate, for rows chosen level by level.
     fn decision(
         self,
-        graded: &Graded,
+        graded: &RowLevels,
         leading: &linalg::Matrix,
         known: Accuracy<'_>,
     ) -> RankDecision {

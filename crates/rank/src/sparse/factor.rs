@@ -17,7 +17,7 @@ use std::ops::Range;
 
 use super::front::{Assembly, OutsidePattern};
 use super::reflectors::Reflectors;
-use super::symbolic::{Front, Symbolic, Wanted};
+use super::symbolic::{Front, KeptFactor, Symbolic};
 use super::trapezoid::Trapezoid;
 use linalg::SparseMatrix;
 use linalg::kernels;
@@ -61,7 +61,7 @@ impl Symbolic {
         &self,
         c: &SparseMatrix,
         tolerances: Tolerances,
-        wanted: Wanted,
+        wanted: KeptFactor,
     ) -> Result<SparseQr, OutsidePattern> {
         for &row in &self.empty_rows {
             if let Some(&column) = c.row(row).0.first() {
@@ -98,7 +98,7 @@ impl Symbolic {
 struct Householder {
     front: Assembly,
     tolerances: Tolerances,
-    wanted: Wanted,
+    wanted: KeptFactor,
     /// The vector v of the current reflection: (row of the front, value).
     v: Vec<(usize, f64)>,
     product: Vec<f64>,
@@ -187,7 +187,7 @@ impl Householder {
         let scale = (norm * (norm + head.abs())).sqrt().recip();
         self.v[0].1 = head - diagonal;
         self.v.iter_mut().for_each(|(_, value)| *value *= scale);
-        if self.wanted == Wanted::Q {
+        if self.wanted == KeptFactor::Q {
             let rows = &self.front.rows;
             let entries = self.v.iter().map(|&(i, v_i)| (rows[i], v_i));
             self.found.q.push(entries);
@@ -210,7 +210,7 @@ impl Householder {
     fn finish_row(&mut self, top: usize, at: usize) {
         self.found.rank += 1;
         self.found.is_live[self.front.rows[top]] = true;
-        if self.wanted == Wanted::R {
+        if self.wanted == KeptFactor::R {
             let width = self.front.width();
             let values = &self.front.values[top * width..][at..width];
             let columns = &self.front.columns[at..];

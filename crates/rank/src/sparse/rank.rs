@@ -27,7 +27,7 @@ use super::factor::{SparseQr, Tolerances};
 use super::front::OutsidePattern;
 use super::sketch::{Sketch, sketch};
 use super::smallest::smallest_singular_value;
-use super::symbolic::Wanted;
+use super::symbolic::KeptFactor;
 use super::symbolic::{Symbolic, TooDense};
 use crate::decision::{required, tolerance};
 use crate::{RankError, RankStatus};
@@ -183,12 +183,12 @@ impl SparsePattern {
     /// Estimated memory (bytes) of a decision with this number of random combinations.
     pub fn bytes(&self, wanted: Sketch) -> usize {
         let rows = self.by_columns.nrows;
-        let q = self.by_columns.bytes(Wanted::Q);
+        let q = self.by_columns.bytes(KeptFactor::Q);
         let vectors =
             size_of::<f64>() * rows * 2 * wanted.columns.next_multiple_of(REFLECTORS_WIDTH);
         // The reflections of Cᵀ, one or two vectors of the sketch, and then the triangle of the
         // kept rows.
-        q + vectors + self.by_rows.bytes(Wanted::R)
+        q + vectors + self.by_rows.bytes(KeptFactor::R)
     }
 
     /// Like [`decide_sparse`], for a matrix with this pattern.
@@ -214,7 +214,7 @@ impl SparsePattern {
             dead: tolerance,
             rest: tolerance,
         };
-        let by_columns = self.by_columns.factor(&scaled, exact, Wanted::Q)?;
+        let by_columns = self.by_columns.factor(&scaled, exact, KeptFactor::Q)?;
         let rank = by_columns.rank;
         let (sketch, sigma_next) = sketch(&by_columns, &scaled, wanted);
         let by_rows = self.kept_rows(&scaled.transpose(), rank, tolerance)?;
@@ -261,7 +261,7 @@ impl SparsePattern {
                 dead,
                 rest: tolerance,
             };
-            self.by_rows.factor(transposed, tolerances, Wanted::R)
+            self.by_rows.factor(transposed, tolerances, KeptFactor::R)
         };
         // If the remaining norm is below the limit, the kept rows cannot have the required singular
         // value.

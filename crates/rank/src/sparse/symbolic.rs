@@ -18,7 +18,7 @@ use linalg::{EliminationTree, SparseMatrix};
 
 /// The factor that is kept; the other one is not stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Wanted {
+pub(super) enum KeptFactor {
     Q,
     R,
 }
@@ -61,7 +61,7 @@ impl Symbolic {
     /// cut off; a column in no block is a block of its own.
     pub(super) fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Result<Self, TooDense> {
         let blocks = partition(c.ncols(), within(c.ncols(), blocks));
-        let touched = Touched::new(c, &blocks);
+        let touched = BlockSets::new(c, &blocks);
         let mut work = 0.0;
         let admit = |k: usize, order: &[usize], beyond: &[usize]| {
             let size = |k: usize| blocks[order[k]].len();
@@ -114,7 +114,7 @@ impl Symbolic {
     /// Upper bound (bytes) on the memory of a factorisation: the factor that is kept, and the
     /// current front with the stored remainders. For fronts of full rank; dependent columns add
     /// little.
-    pub(super) fn bytes(&self, wanted: Wanted) -> usize {
+    pub(super) fn bytes(&self, wanted: KeptFactor) -> usize {
         let (mut factor, mut waiting, mut most) = (0, 0, 0);
         // Numbers of rows and columns of the stored remainders.
         let mut rests: Vec<[usize; 2]> = Vec::new();
@@ -132,8 +132,8 @@ impl Symbolic {
             factor += ENTRY
                 * match wanted {
                     // Reflections of all columns, including those after the pivots.
-                    Wanted::Q => rank * rows - rank * rank.saturating_sub(1) / 2,
-                    Wanted::R => {
+                    KeptFactor::Q => rank * rows - rank * rank.saturating_sub(1) / 2,
+                    KeptFactor::R => {
                         let own = rank.min(pivots);
                         own * width - own * own.saturating_sub(1) / 2
                     }
@@ -154,13 +154,13 @@ const NUMBER: usize = size_of::<f64>();
 const ENTRY: usize = NUMBER + size_of::<usize>();
 
 /// The blocks in which rows have entries; consecutive rows with the same blocks form one set.
-struct Touched {
+struct BlockSets {
     sets: Vec<Vec<usize>>,
     /// Rows of each set.
     rows: Vec<Range<usize>>,
 }
 
-impl Touched {
+impl BlockSets {
     fn new(c: &SparseMatrix, blocks: &[Vec<usize>]) -> Self {
         let mut block_of = vec![0; c.ncols()];
         for (b, columns) in blocks.iter().enumerate() {

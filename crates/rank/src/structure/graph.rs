@@ -98,7 +98,7 @@ pub(super) fn bridges(incidence: &Incidence) -> Vec<usize> {
 }
 
 /// A vertex on the current path of the search.
-struct Step {
+struct PathVertex {
     vertex: usize,
     /// The edge by which it was reached.
     through: Option<usize>,
@@ -116,7 +116,7 @@ fn bridge_edges(ends: &[Vec<End>]) -> Vec<usize> {
         if order[start] != NEW {
             continue;
         }
-        let mut path = vec![Step {
+        let mut path = vec![PathVertex {
             vertex: start,
             through: None,
             next: 0,
@@ -133,7 +133,7 @@ fn bridge_edges(ends: &[Vec<End>]) -> Vec<usize> {
                     continue;
                 }
                 if order[vertex] == NEW {
-                    path.push(Step {
+                    path.push(PathVertex {
                         vertex,
                         through: Some(edge),
                         next: 0,

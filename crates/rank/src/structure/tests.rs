@@ -68,19 +68,19 @@ fn what_is_settled_is_true_and_parts_are_independent() {
         let z = orthonormal(&decision);
         for (row, settled) in found.rows.iter().enumerate() {
             match settled {
-                Settled::Peeled => {
+                StructureVerdict::Peeled => {
                     peeled += 1;
                     assert!(linalg::kernels::max_abs(z.row(row)) < 1e-12);
                 }
-                Settled::Bridge => bridges += 1,
-                Settled::Open(_) => {}
+                StructureVerdict::Bridge => bridges += 1,
+                StructureVerdict::Open(_) => {}
             }
         }
         let mut rank = 0;
         for (g, settled) in found.groups.iter().enumerate() {
             let rows: Vec<usize> = groups[g].rows.clone();
             let whole = margin(&scaled, &z, &rows);
-            if let Settled::Open(k) = settled {
+            if let StructureVerdict::Open(k) = settled {
                 let part = &found.open[*k];
                 let own = c.select_rows(&part.rows);
                 let alone = decide(&own, crate::Accuracy::Rounding).unwrap();
@@ -130,12 +130,16 @@ fn a_bridge_that_peeling_cannot_find() {
     }
     let blocks = [0..3, 3..6, 6..9];
     let found = structure(&matrix(&rows), crate::Accuracy::Rounding, &groups, &blocks).unwrap();
-    assert_eq!(found.groups[0], Settled::Bridge);
-    assert!(found.groups[1..].iter().all(|s| *s == Settled::Open(0)));
+    assert_eq!(found.groups[0], StructureVerdict::Bridge);
+    assert!(
+        found.groups[1..]
+            .iter()
+            .all(|s| *s == StructureVerdict::Open(0))
+    );
     // Without the promise that the loop acts only among its bars, the pin may transmit a load.
     groups.iter_mut().for_each(|g| g.ground = true);
     let careful = structure(&matrix(&rows), crate::Accuracy::Rounding, &groups, &blocks).unwrap();
-    assert_eq!(careful.groups[0], Settled::Open(0));
+    assert_eq!(careful.groups[0], StructureVerdict::Open(0));
 }
 
 /// Entries that are rounding relative to their row do not lead to peeling: block 1 has only an
@@ -148,7 +152,7 @@ fn rounding_does_not_peel() {
         ground: true,
     });
     let found = structure(&c, crate::Accuracy::Rounding, &groups, &[0..1, 1..3]).unwrap();
-    assert_eq!(found.rows, [Settled::Open(0); 3]);
+    assert_eq!(found.rows, [StructureVerdict::Open(0); 3]);
 }
 
 /// Unusual input: a row of zeros is a dependency by itself, ranges are cut off, rows and columns in
@@ -169,7 +173,11 @@ fn odd_input_has_an_answer() {
     let found = structure(&c, crate::Accuracy::Rounding, &groups, &[]).unwrap();
     assert_eq!(
         found.rows,
-        [Settled::Open(0), Settled::Peeled, Settled::Peeled]
+        [
+            StructureVerdict::Open(0),
+            StructureVerdict::Peeled,
+            StructureVerdict::Peeled
+        ]
     );
     assert_eq!((found.parts.len(), found.open.len()), (2, 1));
     assert!(structure(&c, crate::Accuracy::Absolute(f64::NAN), &[], &[]).is_err());

@@ -3,7 +3,7 @@
 
 use model::{FrameState, Mechanism, Reaction, System};
 use serde::Serialize;
-use solvability::{Chosen, Stretches};
+use solvability::{ChosenValues, Stretches};
 
 use super::{Named, RunDocument};
 
@@ -97,7 +97,7 @@ impl MomentDocument {
         t: f64,
         q: &[f64],
         v: &[f64],
-        reactions: &Chosen<Reaction>,
+        reactions: &ChosenValues<Reaction>,
     ) -> Self {
         let bodies = mechanism.bodies().iter().enumerate();
         let bodies =

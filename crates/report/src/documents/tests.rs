@@ -3,8 +3,8 @@
 mod space;
 
 use dynamics::{
-    DropError, DroppedRows, Event, EventKind, Method, MotionError, MotionOptions, Plan, Prepared,
-    RowChoice, Summary, Wanted, prepare,
+    DropError, DroppedRows, Event, EventKind, Method, MotionError, MotionOptions, OutputRequest,
+    Plan, PreparedMechanism, RowChoice, Summary, prepare,
 };
 use joints::{Revolute, RevoluteAngleDrive};
 use linalg::Matrix;
@@ -297,14 +297,14 @@ fn an_undecided_rank_says_why() {
 }
 
 /// Its freedoms.
-fn freedoms(prepared: &Prepared) -> Freedoms {
+fn freedoms(prepared: &PreparedMechanism) -> Freedoms {
     let (mechanism, q) = (&prepared.mechanism, &prepared.q);
     let analysis = analyse(mechanism, 0.0, q).expect("the door hangs");
     analysis.freedoms(mechanism, q).expect("its start")
 }
 
 /// The same door as a mechanism at rest.
-fn prepared() -> Prepared {
+fn prepared() -> PreparedMechanism {
     let hinge = |name: &str, y: f64| {
         let element = Revolute {
             s_i: [0.0, y],
@@ -330,8 +330,9 @@ fn prepared() -> Prepared {
 }
 
 /// Two seconds of it.
-fn planned(prepared: &Prepared) -> Plan<'_> {
-    Plan::new(prepared, &MotionOptions::to(2.0), &Wanted::default()).expect("the door has a plan")
+fn planned(prepared: &PreparedMechanism) -> Plan<'_> {
+    Plan::new(prepared, &MotionOptions::to(2.0), &OutputRequest::default())
+        .expect("the door has a plan")
 }
 
 #[test]

@@ -5,7 +5,7 @@
 use std::io::{self, BufRead, Write};
 
 use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
-use solvability::{Chosen, Group, Stretches, Value, VerdictTrack};
+use solvability::{ChosenValues, Group, Stretches, Value, VerdictTrack};
 
 use super::{Column, Table, TableError};
 
@@ -199,8 +199,8 @@ impl<W: Write> ReactionTable<W> {
     pub fn row(
         &mut self,
         t: f64,
-        reactions: &Chosen<Reaction>,
-        groups: &Chosen<f64>,
+        reactions: &ChosenValues<Reaction>,
+        groups: &ChosenValues<f64>,
     ) -> Result<&[f64], TableError> {
         let reactions = reactions.as_chosen();
         self.table

@@ -5,7 +5,7 @@ use joints::{KnifeEdge, Revolute, RevoluteAngleDrive};
 use model::{
     Body, BodyRef, ConstraintId, Description, Drive, Function, Joint, Mechanism, Reaction,
 };
-use solvability::{Chosen, Group, Stretches, Term, Verdict, VerdictStretch, VerdictTrack};
+use solvability::{ChosenValues, Group, Stretches, Term, Verdict, VerdictStretch, VerdictTrack};
 
 use super::{
     Quantity, ReactionTable, Selection, TableError, TrajectoryTable, columns_of_reactions,
@@ -53,8 +53,8 @@ fn table(mechanism: &Mechanism, selection: &Selection) -> ReactionTable<Vec<u8>>
 
 /// A row without groups, as it is written.
 fn written(mut table: ReactionTable<Vec<u8>>, t: f64) -> String {
-    let none = Chosen::new(Vec::new(), Vec::new());
-    let row = Chosen::new(reactions().to_vec(), Vec::new());
+    let none = ChosenValues::new(Vec::new(), Vec::new());
+    let row = ChosenValues::new(reactions().to_vec(), Vec::new());
     table.row(t, &row, &none).expect("writes");
     text(table.finish().expect("writes").0)
 }
@@ -116,9 +116,9 @@ fn cells_are_empty_where_nothing_is_determined() {
     let columns = columns_of_reactions(&carrier, &only, &groups, is_fragile).expect("exist");
     let mut table =
         ReactionTable::new("choice.csv", Vec::new(), &carrier, columns).expect("writes");
-    let row = Chosen::new(reactions().to_vec(), vec![1]);
+    let row = ChosenValues::new(reactions().to_vec(), vec![1]);
     for (t, sum) in [(0.0, 16.0), (1.0, f64::NAN), (2.0, 17.0)] {
-        let sum = Chosen::new(vec![sum], vec![1]);
+        let sum = ChosenValues::new(vec![sum], vec![1]);
         table.row(t, &row, &sum).expect("writes");
     }
     let (all, columns) = table.finish().expect("writes");
@@ -139,7 +139,7 @@ fn cells_are_empty_where_nothing_is_determined() {
     // The table of a choice has its own numbers where nothing is determined, and nowhere else.
     let mut table =
         ReactionTable::new("choice.csv", Vec::new(), &carrier, columns.clone()).expect("writes");
-    let row = Chosen::new(
+    let row = ChosenValues::new(
         reactions()
             .map(|r| Reaction {
                 force: [-4.0; 3],
@@ -149,7 +149,7 @@ fn cells_are_empty_where_nothing_is_determined() {
         vec![],
     );
     for t in [0.0, 1.0, 2.0] {
-        let sum = Chosen::new(vec![5.0], vec![]);
+        let sum = ChosenValues::new(vec![5.0], vec![]);
         table.row(t, &row, &sum).expect("writes");
     }
     let (own, columns) = table.finish().expect("writes");

@@ -4,7 +4,7 @@ use dynamics::code::LEAVE;
 use model::{SpaceKind, System};
 
 use super::one_line;
-use crate::functions::{Described, Functions};
+use crate::functions::{Functions, NamedView};
 use crate::subject::Subject;
 
 /// What coordinates and velocities in space are.
@@ -41,11 +41,11 @@ pub(super) fn of(subject: &Subject<'_>, functions: &Functions) -> Vec<String> {
             numbers(&prepared.position_decision.dropped)
         ),
         match (&functions.view, prepared.mechanism.space()) {
-            (Described::Frame(body), _) => format!("Solved in the frame of the body `{body}`: it does not matter which way the whole points."),
-            (Described::Ground, SpaceKind::Space3) => "Solved with angular velocities along principal axes.".to_owned(),
-            (Described::JointAxes, _) => "Solved with angular velocities along the axes of bodies that carry others.".to_owned(),
-            (Described::GroundAxes, _) => "Solved with angular velocities along the axes of the ground.".to_owned(),
-            (Described::Ground, _) => "Solved in the frame of the ground.".to_owned(),
+            (NamedView::Frame(body), _) => format!("Solved in the frame of the body `{body}`: it does not matter which way the whole points."),
+            (NamedView::Ground, SpaceKind::Space3) => "Solved with angular velocities along principal axes.".to_owned(),
+            (NamedView::JointAxes, _) => "Solved with angular velocities along the axes of bodies that carry others.".to_owned(),
+            (NamedView::GroundAxes, _) => "Solved with angular velocities along the axes of the ground.".to_owned(),
+            (NamedView::Ground, _) => "Solved in the frame of the ground.".to_owned(),
         },
         String::new(),
         "Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that"

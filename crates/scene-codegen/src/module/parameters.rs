@@ -1,7 +1,7 @@
 //! The numbers of a scene in its module: what its functions take, and where a run finds it; and how
 //! the velocities of bodies in space are turned, which may depend on them.
 
-use joints::Recorded;
+use joints::RecordedNumber;
 use model::{BodyRecord, Principal, SpaceKind};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -40,7 +40,7 @@ pub(super) fn principal_axes(subject: &Subject<'_>, functions: &Functions) -> To
         return TokenStream::new();
     }
     let recorded = &functions.equations.recording.beside.principal;
-    let number = |r: &Recorded| subject.inputs.at(r.place());
+    let number = |r: &RecordedNumber| subject.inputs.at(r.place());
     let varies = recorded
         .iter()
         .flatten()

@@ -9,7 +9,7 @@ use model::System;
 use scenes::scenes;
 
 use super::{SAME, compare, corrections_are_exact, run, states, study, subject};
-use crate::functions::{Described, Functions};
+use crate::functions::{Functions, NamedView};
 
 /// States of each scene, and how many of them at least the code has to be healthy at: those of a
 /// chain that swings freely are often beyond its pivots.
@@ -96,6 +96,6 @@ fn what_turns_keeps_its_pivots() {
         assert_eq!(functions.unhealthy, 0, "{name}");
         functions.view
     };
-    assert!(matches!(view("hooke"), Described::JointAxes));
-    assert!(matches!(view("cart"), Described::Frame(body) if body == "chassis"));
+    assert!(matches!(view("hooke"), NamedView::JointAxes));
+    assert!(matches!(view("cart"), NamedView::Frame(body) if body == "chassis"));
 }

@@ -5,14 +5,14 @@
 //! variable has none (`0.5*rate` may be a torque): such a term is the number that the units of the
 //! scene give, as a bare number is, until a place or a sum tells its dimension.
 
-use model::law::{Function, Join, Law, LawError, Operation};
+use model::law::{Join, Law, LawError, Operation, UnaryFunction};
 
 use super::quantity::{Bases, Quantity};
 use super::{Fault, Problem, Scope, Value, parse, taken};
 use crate::dimension::Dimension;
 
 #[derive(Clone)]
-pub(super) enum Term {
+pub(super) enum LawTerm {
     /// Without a variable.
     Constant(Quantity),
     Variable(Variable),
@@ -32,7 +32,7 @@ pub(crate) fn law(
     scope: &impl Scope,
 ) -> Result<Law, Vec<Fault>> {
     let variable = |of: Dimension, operation| {
-        Term::Variable(Variable {
+        LawTerm::Variable(Variable {
             dimension: Some(of),
             work: vec![operation],
         })
@@ -64,13 +64,13 @@ pub(crate) fn law(
     })
 }
 
-impl From<Quantity> for Term {
+impl From<Quantity> for LawTerm {
     fn from(q: Quantity) -> Self {
         Self::Constant(q)
     }
 }
 
-impl Term {
+impl LawTerm {
     fn dimension(&self) -> Option<Dimension> {
         match self {
             Self::Constant(q) => q.dimension,
@@ -159,7 +159,7 @@ impl Term {
                     Some(of) => self.at(of, bases)?,
                     None => self.bare(bases)?,
                 };
-                return Ok(base.applied(Function::Whole(whole), of));
+                return Ok(base.applied(UnaryFunction::Whole(whole), of));
             }
         }
         if let Some(of) = self.dimension().filter(|d| *d != Dimension::NONE) {
@@ -173,11 +173,11 @@ impl Term {
 /// Largest whole power that is a product; see `Quantity::power`.
 const MOST_FACTORS: f64 = 64.0;
 
-fn joined([a, b]: [Variable; 2], join: Join, dimension: Option<Dimension>) -> Term {
+fn joined([a, b]: [Variable; 2], join: Join, dimension: Option<Dimension>) -> LawTerm {
     let mut work = a.work;
     work.extend(b.work);
     work.push(Operation::Join(join));
-    Term::Variable(Variable { dimension, work })
+    LawTerm::Variable(Variable { dimension, work })
 }
 
 impl Variable {
@@ -191,19 +191,19 @@ impl Variable {
         Ok(self)
     }
 
-    fn applied(mut self, f: Function, dimension: Option<Dimension>) -> Term {
+    fn applied(mut self, f: UnaryFunction, dimension: Option<Dimension>) -> LawTerm {
         self.work.push(Operation::Apply(f));
-        Term::Variable(Self { dimension, ..self })
+        LawTerm::Variable(Self { dimension, ..self })
     }
 }
 
-impl Value for Term {
+impl Value for LawTerm {
     fn negated(self) -> Self {
         match self {
             Self::Constant(q) => Self::Constant(q.negated()),
             Self::Variable(v) => {
                 let of = v.dimension;
-                v.applied(Function::Negate, of)
+                v.applied(UnaryFunction::Negate, of)
             }
         }
     }
@@ -253,14 +253,14 @@ impl Value for Term {
             "min" => return two(Join::Least, None),
             "max" => return two(Join::Largest, None),
             "atan2" => return two(Join::Angle, Some(Dimension::ANGLE)),
-            "sin" => (Function::Sin, Dimension::NONE),
-            "cos" => (Function::Cos, Dimension::NONE),
-            "tan" => (Function::Tan, Dimension::NONE),
-            "asin" => (Function::Asin, Dimension::ANGLE),
-            "acos" => (Function::Acos, Dimension::ANGLE),
-            "atan" => (Function::Atan, Dimension::ANGLE),
-            "exp" => (Function::Exp, Dimension::NONE),
-            "log" => (Function::Log, Dimension::NONE),
+            "sin" => (UnaryFunction::Sin, Dimension::NONE),
+            "cos" => (UnaryFunction::Cos, Dimension::NONE),
+            "tan" => (UnaryFunction::Tan, Dimension::NONE),
+            "asin" => (UnaryFunction::Asin, Dimension::ANGLE),
+            "acos" => (UnaryFunction::Acos, Dimension::ANGLE),
+            "atan" => (UnaryFunction::Atan, Dimension::ANGLE),
+            "exp" => (UnaryFunction::Exp, Dimension::NONE),
+            "log" => (UnaryFunction::Log, Dimension::NONE),
             _ => {
                 // "sqrt" | "abs"
                 let of = x.dimension();
@@ -270,11 +270,11 @@ impl Value for Term {
                 };
                 let x = x.map_err(of_whole)?;
                 if name == "abs" {
-                    return Ok(x.applied(Function::Abs, of));
+                    return Ok(x.applied(UnaryFunction::Abs, of));
                 }
                 let root = of.map(|of| of.root().ok_or(Problem::Root { of }));
                 let root = root.transpose().map_err(of_whole)?;
-                return Ok(x.applied(Function::Root, root));
+                return Ok(x.applied(UnaryFunction::Root, root));
             }
         };
         let taken = taken(name).unwrap_or(Dimension::NONE);

@@ -1,6 +1,6 @@
 //! Frames away from the centre of mass, markers, measures: what they say, and their faults.
 
-use model::{BodyRef, MeasureKind, Stated};
+use model::{BodyRef, MeasureKind, ToleranceScope};
 
 use crate::diagnostics::check_in;
 use crate::{assert_close, read};
@@ -195,7 +195,7 @@ fn a_tolerance_of_a_marker_is_that_of_its_point() {
         .expect("a mechanism")
         .part_of_groups(&[1]);
     assert_eq!(part.mechanism.frames().observed().markers.len(), 1);
-    let of = Stated::Marker("tip".to_owned());
+    let of = ToleranceScope::Marker("tip".to_owned());
     assert_eq!(of.to_string(), "marker `tip`");
 }
 

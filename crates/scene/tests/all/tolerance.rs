@@ -1,6 +1,6 @@
 //! Tolerances stated in a file, in the description and at their places.
 
-use model::{BuildError, Mechanism, Stated, Tolerance};
+use model::{BuildError, Mechanism, Tolerance, ToleranceScope};
 
 use crate::{BODIES, read, read_more};
 
@@ -139,7 +139,7 @@ fn a_tolerance_that_became_wrong_is_found_in_the_text() {
     };
     assert_eq!(marked(&errors[0]), "1e-4");
     assert_eq!(marked(&errors[1]), "\"A\"");
-    let of = Stated::Drive("D".into());
+    let of = ToleranceScope::Drive("D".into());
     assert!(
         matches!(&errors[1], BuildError::Tolerance { of: found, .. } if *found == of),
         "{errors:?}"

@@ -13,7 +13,7 @@ use crate::verdict::Verdict;
 /// Verdicts along a motion.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
-pub struct Along {
+pub struct MotionAnalysis {
     /// The verdicts on joints and drives, by stretches of time, with the instants at which others
     /// hold.
     pub verdicts: Stretches,

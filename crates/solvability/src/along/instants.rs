@@ -41,7 +41,7 @@ impl Margins {
 }
 
 /// An instant, with the verdicts on all components there.
-pub(super) type Instant = (f64, Vec<Judgement>);
+pub(super) type JudgedInstant = (f64, Vec<Judgement>);
 
 /// Finds isolated instants outside the stretches that have another rank, and outside nearly
 /// singular intervals.
@@ -50,7 +50,7 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
     verdicts: &Stretches,
     stretches: &[Stretch],
     passages: &[Passage],
-) -> Result<Vec<Instant>, AlongError> {
+) -> Result<Vec<JudgedInstant>, AlongError> {
     let is_singular = |t: f64| {
         let mut stretches = stretches.iter().map(|e| [e.from, e.to]);
         let mut intervals = passages.iter().map(|p| p.nearly_singular);
@@ -61,7 +61,7 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
     let times: Vec<f64> = path.samples.iter().map(|s| s.t).collect();
     let known: Vec<bool> = path.samples.iter().map(is_known).collect();
     let mut margins_at = Margins::default();
-    let mut found: Vec<Instant> = Vec::new();
+    let mut found: Vec<JudgedInstant> = Vec::new();
     for (component, track) in verdicts.components().enumerate() {
         // Margins at samples; `None` where another verdict than not unique holds around.
         let samples = path.samples.iter().zip(&known);

@@ -3,7 +3,7 @@
 
 use model::{Mechanism, System};
 
-use super::data::{Along, AlongError, GenericRank, Passage, PassageKind, Stretch};
+use super::data::{AlongError, GenericRank, MotionAnalysis, Passage, PassageKind, Stretch};
 use super::{judged_as_one, words};
 use crate::limits::ROWS_MAX;
 use crate::parts::{Extent, Partition};
@@ -19,7 +19,7 @@ pub(super) fn judged_by_parts(
     times: &[f64],
     partition: &Partition,
     of_run: Option<&Stretches>,
-) -> Result<Along, AlongError> {
+) -> Result<MotionAnalysis, AlongError> {
     let parts = partition.map(mechanism, |part, extent| {
         let rows = part.layout().rows();
         if rows > ROWS_MAX {
@@ -84,7 +84,7 @@ pub(super) fn judged_by_parts(
         })
         .collect();
     passages.sort_by(|a, b| a.time.total_cmp(&b.time));
-    Ok(Along {
+    Ok(MotionAnalysis {
         verdicts,
         generic,
         stretches,

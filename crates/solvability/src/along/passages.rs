@@ -14,12 +14,12 @@ use rank::NEARLY_REDUNDANT;
 use super::data::{AlongError, Passage, PassageKind, Stretch};
 use super::path::{Path, Point, Sample, singular_value};
 use super::search;
-use crate::second_order::{Continuation, Undetermined, second_order};
+use crate::second_order::{Continuation, SecondOrderDoubt, second_order};
 use crate::state::State;
 
 /// An instant at which σ_r has a minimum.
 #[derive(Clone, Copy)]
-struct Candidate {
+struct SigmaMinimum {
     t: f64,
     sigma: f64,
     /// Whether a sign change proves that σ_r is zero at this instant.
@@ -27,7 +27,7 @@ struct Candidate {
 }
 
 /// A singular or nearly singular instant, with the rank there.
-pub(super) struct Found {
+pub(super) struct DecidedPassage {
     /// Verdicts are not compared.
     pub(super) passage: Passage,
     pub(super) point: Point,
@@ -38,7 +38,7 @@ pub(super) struct Found {
 pub(super) fn passages<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     stretches: &[Stretch],
-) -> Result<Vec<Found>, AlongError> {
+) -> Result<Vec<DecidedPassage>, AlongError> {
     let mut found = sign_changes(path)?;
     let times: Vec<f64> = path.samples.iter().map(|s| s.t).collect();
     let sigma: Vec<Option<f64>> = path.samples.iter().map(|s| Some(s.sigma)).collect();
@@ -52,11 +52,11 @@ pub(super) fn passages<F: FnMut(f64) -> State>(
             && sigma < NEARLY_REDUNDANT
         {
             let proved = false;
-            found.push(Candidate { t, sigma, proved });
+            found.push(SigmaMinimum { t, sigma, proved });
         }
     }
     let redundancy = path.mechanism.layout().rows() - path.rank;
-    let is_apart = |c: &Candidate| {
+    let is_apart = |c: &SigmaMinimum| {
         let mut singular = stretches.iter().filter(|s| s.redundancy > redundancy);
         singular.all(|s| !(s.from..=s.to).contains(&c.t))
     };
@@ -103,7 +103,7 @@ fn distance(a: &Matrix, b: &Matrix) -> f64 {
 /// Finds roots of the bordered determinant between regular samples.
 fn sign_changes<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
-) -> Result<Vec<Candidate>, AlongError> {
+) -> Result<Vec<SigmaMinimum>, AlongError> {
     let ends: Vec<End> = path
         .samples
         .iter()
@@ -115,7 +115,7 @@ fn sign_changes<F: FnMut(f64) -> State>(
             kept: s.decision.kept.clone(),
         })
         .collect();
-    let mut found: Vec<Candidate> = Vec::new();
+    let mut found: Vec<SigmaMinimum> = Vec::new();
     let mut intervals: Vec<(End, End, usize)> = ends
         .windows(2)
         .map(|w| (w[0].clone(), w[1].clone(), SAMPLE_HALVINGS))
@@ -136,7 +136,7 @@ fn sign_changes<F: FnMut(f64) -> State>(
             let sigma = path.sigma(t)?;
             if sigma < SINGULAR_INSTANT {
                 let proved = true;
-                found.push(Candidate { t, sigma, proved });
+                found.push(SigmaMinimum { t, sigma, proved });
                 continue;
             }
         }
@@ -175,8 +175,8 @@ fn sign_changes<F: FnMut(f64) -> State>(
 /// Determines what happens at a candidate.
 fn passage<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
-    candidate: Candidate,
-) -> Result<Found, AlongError> {
+    candidate: SigmaMinimum,
+) -> Result<DecidedPassage, AlongError> {
     let (time, sigma) = (candidate.t, candidate.sigma);
     let point = path.at(time)?;
     // A sign change proves that a matrix of lower rank is at most σ_r away.
@@ -192,7 +192,7 @@ fn passage<F: FnMut(f64) -> State>(
                     let regular = regular_motions(path, time, interval, &v)?;
                     second_order(path.mechanism, time, &point.q, &v, &decision, &regular)?
                 }
-                None => Continuation::Undetermined(Undetermined::Open),
+                None => Continuation::Undetermined(SecondOrderDoubt::Open),
             };
             PassageKind::RankDrops {
                 redundancy: decision.redundancy,
@@ -207,7 +207,7 @@ fn passage<F: FnMut(f64) -> State>(
         differences: Vec::new(),
         text: String::new(),
     };
-    Ok(Found {
+    Ok(DecidedPassage {
         passage,
         point,
         decision,

@@ -11,7 +11,7 @@ use model::{Mechanism, Scratch, System};
 use rank::RankDecision;
 
 use super::data::AlongError;
-use crate::certificate::{Rows, holding_together};
+use crate::certificate::{UncertainRows, holding_together};
 use crate::components::judge_all;
 use crate::matrices::Solvability;
 use crate::state::{self, State};
@@ -183,7 +183,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         let layout = self.mechanism.layout();
         if distance == 0.0 && self.mechanism.has_tolerances() && layout.rows() <= ROWS_MAX {
             let at = (&p.s, p.q.as_slice(), self.size);
-            let rows = Rows::of_matrix(self.mechanism, at, &p.c, self.known(p));
+            let rows = UncertainRows::of_matrix(self.mechanism, at, &p.c, self.known(p));
             return Ok(rows.decide()?);
         }
         let decision = match distance {
@@ -223,7 +223,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         decision: RankDecision,
     ) -> Result<Vec<Judgement>, AlongError> {
         let pose = (&p.s, &p.q[..], self.size);
-        let rows = Rows::of_matrix(self.mechanism, pose, &p.c, self.known(p));
+        let rows = UncertainRows::of_matrix(self.mechanism, pose, &p.c, self.known(p));
         let solvability = Solvability::from_decision(&rows.matrix(), decision);
         let judged = judge_all(self.mechanism, &p.s, solvability.basis());
         judged.map_err(|source| AnalysisError::Query { time: p.t, source }.into())

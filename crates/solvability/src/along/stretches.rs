@@ -8,7 +8,7 @@ use super::path::{Path, Sample};
 use super::words;
 use crate::components::all_components;
 use crate::state::State;
-use crate::stretches::{Looked, Stretches, VerdictRecorder};
+use crate::stretches::{InstantOrder, Stretches, VerdictRecorder};
 
 /// The verdicts by those at the sample times that have the rank of their piece of the motion.
 pub(super) fn of_samples<F: FnMut(f64) -> State>(path: &Path<'_, F>) -> Stretches {
@@ -24,7 +24,7 @@ pub(super) fn of_samples<F: FnMut(f64) -> State>(path: &Path<'_, F>) -> Stretche
         let is_typical = sample.decision.is_decided() && Some(sample.decision.rank) == rank;
         let own = sample.judged.iter();
         let verdicts = own.map(|j| is_typical.then(|| j.verdict.clone()));
-        recorder.see(sample.t, Looked::Next, verdicts.collect());
+        recorder.see(sample.t, InstantOrder::Next, verdicts.collect());
     }
     let tracks = recorder.finish(path.extent());
     Stretches::of_components(mechanism, path.extent(), tracks)

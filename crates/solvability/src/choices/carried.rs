@@ -6,13 +6,13 @@
 use std::borrow::Cow;
 
 use linalg::{Matrix, singular_values};
-use model::{Known, Mechanism, RowRanges, Scratch, System};
+use model::{ConfigurationAccuracy, Mechanism, RowRanges, Scratch, System};
 use rank::KeptRowsError;
 
 use super::free::Choosing;
 use super::multipliers::FreeMultipliers;
 use super::{Choice, ChoiceError, Label, rows_refused};
-use crate::certificate::Rows;
+use crate::certificate::UncertainRows;
 use crate::error::AnalysisError;
 use crate::groups::{ReactionForms, RequestError};
 use crate::matrices::orthonormal;
@@ -126,7 +126,7 @@ impl<'m> FreePart<'m> {
         choices: Vec<Choice>,
     ) -> Result<Self, AnalysisError> {
         let q = extent.coordinates(q);
-        let rows = Rows::new(&mechanism, t, &q, Known::AsStored)?;
+        let rows = UncertainRows::new(&mechanism, t, &q, ConfigurationAccuracy::AsStored)?;
         let (size, decision) = (rows.size(), rows.decide()?);
         drop(rows);
         let scaling = &decision.scaling;

@@ -8,20 +8,20 @@ use super::{Label, NamedChoice};
 /// who says that they are chosen.
 ///
 /// ```
-/// use pfaff_solvability::Chosen;
-/// let lambda = Chosen::new(vec![3.0, 0.0], vec![1]);
+/// use pfaff_solvability::ChosenValues;
+/// let lambda = ChosenValues::new(vec![3.0, 0.0], vec![1]);
 /// assert_eq!(lambda.dropped(), [1]);
 /// assert_eq!(lambda.as_chosen(), [3.0, 0.0]);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Chosen<T> {
+pub struct ChosenValues<T> {
     values: Vec<T>,
     dropped: Vec<usize>,
     /// Name of the choice; `None` if the choice is that of the dropped rows.
     label: Option<Label>,
 }
 
-impl<T> Chosen<T> {
+impl<T> ChosenValues<T> {
     /// Numbers of the solution in which these rows (from 0) have no multiplier.
     #[must_use]
     pub fn new(values: Vec<T>, dropped: Vec<usize>) -> Self {
@@ -44,8 +44,8 @@ impl<T> Chosen<T> {
 
     /// Other numbers of the same choice.
     #[must_use]
-    pub fn with<U>(&self, values: Vec<U>) -> Chosen<U> {
-        Chosen {
+    pub fn with<U>(&self, values: Vec<U>) -> ChosenValues<U> {
+        ChosenValues {
             values,
             dropped: self.dropped.clone(),
             label: self.label.clone(),

@@ -12,7 +12,7 @@ use model::start::scene_size;
 use model::{Level, Mechanism, Scratch, System};
 use rank::RankStatus;
 
-use super::{ChoiceError, Chosen};
+use super::{ChoiceError, ChosenValues};
 use crate::existence::may_miss;
 use crate::groups::{RequestError, check};
 use crate::parts::Extent;
@@ -115,7 +115,7 @@ pub struct Solution {
     /// a, n_v.
     pub acceleration: Vec<f64>,
     /// λ with zeros on the dropped rows. All other solutions are `λ + Z·y`.
-    pub multipliers: Chosen<f64>,
+    pub multipliers: ChosenValues<f64>,
     /// Reactions that have no finite value in the motion, whatever the multipliers say:
     /// [`crate::no_finite_reactions`]. Empty unless the caller asks for them.
     pub no_finite: Vec<Arc<NoFiniteReaction>>,
@@ -189,7 +189,10 @@ impl Equations {
     /// - [`ChoiceError::Contradiction`]: the dropped rows require other accelerations, so there is
     ///   no solution.
     /// - [`ChoiceError::Request`]: sizes do not fit.
-    pub fn multipliers(&self, rows: impl Into<RowDecision>) -> Result<Chosen<f64>, ChoiceError> {
+    pub fn multipliers(
+        &self,
+        rows: impl Into<RowDecision>,
+    ) -> Result<ChosenValues<f64>, ChoiceError> {
         self.solution(rows).map(|solution| solution.multipliers)
     }
 
@@ -221,7 +224,7 @@ impl Equations {
         saddle.solve(&self.force, &gamma, &mut a, &mut of_kept)?;
         let solution = Solution {
             acceleration: a,
-            multipliers: Chosen::new(on_all_rows(kept, of_kept, m), rows.dropped.clone()),
+            multipliers: ChosenValues::new(on_all_rows(kept, of_kept, m), rows.dropped.clone()),
             no_finite: Vec::new(),
         };
         Ok((solution, saddle))
@@ -348,7 +351,7 @@ fn sparse_solution(
     }
     Ok(Solution {
         acceleration: a,
-        multipliers: Chosen::new(
+        multipliers: ChosenValues::new(
             on_all_rows(kept, of_kept, layout.rows()),
             rows.dropped.clone(),
         ),

@@ -6,7 +6,7 @@ use model::start::scene_size;
 use model::{ConstraintLevel, Level, Mechanism, Scratch, System};
 use rank::{RankDecision, circuits, dropping_of_rank};
 
-use super::{Comparison, Contradiction};
+use super::{Contradiction, LevelValues};
 use crate::certificate;
 use crate::error::AnalysisError;
 use crate::pose::{dimensionless, evaluated, uncertainty, velocity_units};
@@ -38,7 +38,7 @@ impl StatedRanks {
             return Ok(None);
         }
         let s = evaluated(mechanism, t, q);
-        let rows = certificate::Rows::in_double(mechanism, &s, q);
+        let rows = certificate::UncertainRows::in_double(mechanism, &s, q);
         let rank = |some: &[usize]| {
             let decision = rows.select(some).decide()?;
             Ok::<_, AnalysisError>(decision.is_decided().then_some(decision.rank))
@@ -200,7 +200,7 @@ impl JointsFirst {
             .filter(|(row, _)| drives.binary_search(row).is_ok())
             .map(|(_, circuit)| circuit)
             .collect();
-        let comparison = Comparison {
+        let comparison = LevelValues {
             level,
             prescribed: &self.s,
             decision: &self.decision,

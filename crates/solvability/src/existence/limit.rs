@@ -134,7 +134,7 @@ pub fn drive_limit(
 ) -> Option<DriveLimit> {
     check(mechanism, t, q, v).ok()?;
     let curve = Curve::new(mechanism, kept, t, q)?;
-    let mut at = Point {
+    let mut at = CurvePoint {
         t,
         q: q.to_vec(),
         ahead: curve.given(v),
@@ -153,7 +153,7 @@ pub fn drive_limit(
 
 /// A point of the curve, with the direction in which it goes on: coordinates without dimensions,
 /// and time.
-struct Point {
+struct CurvePoint {
     t: f64,
     q: Vec<f64>,
     ahead: Vec<f64>,
@@ -233,7 +233,7 @@ impl<'m> Curve<'m> {
     }
 
     /// The direction of the curve that is nearest to that of the point.
-    fn tangent(&self, at: &Point) -> Option<Vec<f64>> {
+    fn tangent(&self, at: &CurvePoint) -> Option<Vec<f64>> {
         let rows = self.of_all(&self.evaluated(at.t, &at.q));
         if rows.first_non_finite().is_some() || rows.nrows() >= rows.ncols() {
             return None;
@@ -246,7 +246,7 @@ impl<'m> Curve<'m> {
         (length > 0.0).then_some(ahead)
     }
 
-    fn rate_of_time(&self, at: &Point) -> f64 {
+    fn rate_of_time(&self, at: &CurvePoint) -> f64 {
         at.ahead.last().copied().unwrap_or(0.0)
     }
 
@@ -263,7 +263,7 @@ impl<'m> Curve<'m> {
     }
 
     /// The point after a step of this length.
-    fn step(&self, from: &Point, length: f64) -> Option<Point> {
+    fn step(&self, from: &CurvePoint, length: f64) -> Option<CurvePoint> {
         let (mut t, mut q) = self.moved((from.t, &from.q), &from.ahead, length);
         let weights = vec![1.0; self.units.len() + 1];
         for _ in 0..LIMIT_CORRECTIONS {
@@ -278,7 +278,7 @@ impl<'m> Curve<'m> {
             }
             if largest <= LIMIT_ARRIVED {
                 let ahead = from.ahead.clone();
-                let mut there = Point { t, q, ahead };
+                let mut there = CurvePoint { t, q, ahead };
                 there.ahead = self.tangent(&there)?;
                 return Some(there);
             }
@@ -287,7 +287,7 @@ impl<'m> Curve<'m> {
     }
 
     /// The last point before time falls, from one that is a step before it.
-    fn highest(&self, from: Point) -> Point {
+    fn highest(&self, from: CurvePoint) -> CurvePoint {
         let (mut at, mut length) = (from, LIMIT_STEP);
         for _ in 0..LIMIT_HALVINGS {
             length *= 0.5;
@@ -301,7 +301,7 @@ impl<'m> Curve<'m> {
     }
 
     /// The drives that cannot go on, if no velocity raises time at second order.
-    fn limit(&self, at: &Point) -> Option<DriveLimit> {
+    fn limit(&self, at: &CurvePoint) -> Option<DriveLimit> {
         let mut s = self.evaluated(at.t, &at.q);
         let c = self.of_coordinates(&s);
         let (r, n) = (c.nrows(), c.ncols());

@@ -5,7 +5,7 @@ use rank::Circuit;
 
 use super::{FreeDirection, is_turned};
 use crate::limits::TELLABLE;
-use crate::loads::Told;
+use crate::loads::LoadDescription;
 use crate::matrices::Solvability;
 use crate::verdict::Verdict;
 use crate::words::{list, names, short};
@@ -19,7 +19,7 @@ pub(super) fn of_stress(
     solvability: &Solvability,
     circuit: &Circuit,
     directions: &[FreeDirection],
-    told: Option<Told>,
+    told: Option<LoadDescription>,
 ) -> String {
     let layout = mechanism.layout();
     let ids: Vec<ConstraintId> = directions.iter().map(|d| d.joint).collect();
@@ -32,9 +32,15 @@ pub(super) fn of_stress(
         let names = list(&names(layout, &ids));
         let shared = "without any load; how a load is shared among them is not determined";
         return match told {
-            Told::Common(load) => format!("{names} can put {load} on each other {shared}"),
-            Told::Each(load) => format!("{names} can each put {load} on the others {shared}"),
-            Told::Various(loads) => format!("{names} can load each other ({loads}) {shared}"),
+            LoadDescription::Common(load) => {
+                format!("{names} can put {load} on each other {shared}")
+            }
+            LoadDescription::Each(load) => {
+                format!("{names} can each put {load} on the others {shared}")
+            }
+            LoadDescription::Various(loads) => {
+                format!("{names} can load each other ({loads}) {shared}")
+            }
         };
     }
     let cancel = || list(&terms(layout, directions));

@@ -8,25 +8,25 @@ use model::{Bodies, Mechanism, Part, System};
 
 use super::component::{Component, Velocities, shared_rank};
 use super::movement::Twist;
-use super::{Decided, FreeMotion, FreeMotions, LeftOut, words};
+use super::{FreeMotion, FreeMotions, LeftOut, PartRank, words};
 
 /// The motions described so far.
 #[derive(Default)]
-struct Described {
+struct DescribedMotions {
     motions: Vec<FreeMotion>,
     freedoms: usize,
     too_large: usize,
 }
 
 /// A mechanism with some of the joints, and the sets of bodies that these joints connect.
-pub(super) struct Connected<'a> {
+pub(super) struct ConnectedSets<'a> {
     whole: &'a Mechanism,
     joined: Part,
     /// Bodies of the whole mechanism, ascending; a body without joints is a set of its own.
     sets: Vec<Vec<usize>>,
 }
 
-impl<'a> Connected<'a> {
+impl<'a> ConnectedSets<'a> {
     /// Connects by all joints, with or without the drives.
     pub(super) fn new(whole: &'a Mechanism, drives: bool) -> Self {
         let groups = whole.layout().groups.iter().enumerate();
@@ -43,9 +43,9 @@ impl<'a> Connected<'a> {
 
     /// A basis of the velocities that the rows allow, if their ranks are known and less than n_v in
     /// total.
-    pub(super) fn motions(&self, t: f64, q: &[f64], decided: &[Decided]) -> FreeMotions {
+    pub(super) fn motions(&self, t: f64, q: &[f64], decided: &[PartRank]) -> FreeMotions {
         let rank: usize = decided.iter().map(|part| part.rank).sum();
-        let mut described = Described::default();
+        let mut described = DescribedMotions::default();
         for (set, rank) in self.sets.iter().zip(self.ranks(t, q, decided)) {
             match rank {
                 Some(rank) => self.describe(set, t, q, rank, &mut described),
@@ -69,7 +69,7 @@ impl<'a> Connected<'a> {
 
     /// Rank of the rows of each set. `None` if the set is too large to separate its rank from that
     /// of others, or to be analysed further.
-    fn ranks(&self, t: f64, q: &[f64], decided: &[Decided]) -> Vec<Option<usize>> {
+    fn ranks(&self, t: f64, q: &[f64], decided: &[PartRank]) -> Vec<Option<usize>> {
         let layout = self.whole.layout();
         let columns = self.whole.space().n_v();
         let mut set_of = vec![0; self.whole.bodies().len()];
@@ -161,7 +161,14 @@ impl<'a> Connected<'a> {
         set.iter().all(|b| joined.binary_search(b).is_err())
     }
 
-    fn describe(&self, set: &[usize], t: f64, q: &[f64], rank: usize, described: &mut Described) {
+    fn describe(
+        &self,
+        set: &[usize],
+        t: f64,
+        q: &[f64],
+        rank: usize,
+        described: &mut DescribedMotions,
+    ) {
         let most = MOTIONS_REPORTED - described.motions.len().min(MOTIONS_REPORTED);
         let columns = self.whole.space().n_v();
         if most == 0 || rank == columns * set.len() {

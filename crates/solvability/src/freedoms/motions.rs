@@ -41,7 +41,7 @@ pub struct FreeMotion {
 
 /// Rank of rows that have been decided together: those of the whole mechanism, or of a part that
 /// shares no cycle with others.
-pub(crate) struct Decided {
+pub(crate) struct PartRank {
     /// Rows of the whole mechanism, ascending.
     pub(crate) rows: Vec<usize>,
     /// Their rank.

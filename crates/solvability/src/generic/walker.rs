@@ -7,14 +7,14 @@ use model::{DataBlock, Mechanism, SHARED, System};
 
 use super::leaving::Leaving;
 use super::{DecidedRows, OtherConfiguration};
-use crate::certificate::{Rows, holding_together};
+use crate::certificate::{UncertainRows, holding_together};
 use crate::limits::{
     GENERIC_HALVINGS, GENERIC_HOLDS, GENERIC_STEP, GENERIC_STEPS, GENERIC_STRAYED,
 };
 use crate::pose::dimensionless;
 
 /// Rows of Φ that do not belong to drives.
-pub(super) struct Lasting {
+pub(super) struct LastingRows {
     /// Rows that are satisfied at other points.
     held: Vec<usize>,
     /// Rows that are redundant within a stated tolerance, ascending: at other points they have
@@ -22,7 +22,7 @@ pub(super) struct Lasting {
     dropped: Vec<usize>,
 }
 
-impl Lasting {
+impl LastingRows {
     pub(super) fn of(mechanism: &Mechanism, t: f64, q: &[f64]) -> Self {
         let layout = mechanism.layout();
         let lasting = layout.groups.iter().filter(|g| !g.is_drive());
@@ -65,7 +65,7 @@ impl Lasting {
 /// Walks along the motions that the constraints allow without the drives.
 pub(super) struct Walker<'m> {
     pub(super) mechanism: &'m Mechanism,
-    pub(super) rows: Lasting,
+    pub(super) rows: LastingRows,
     /// Units of the velocities in a mechanism of size one.
     pub(super) units: Vec<f64>,
     pub(super) size: f64,
@@ -212,7 +212,7 @@ impl Walker<'_> {
             let c = dimensionless(mechanism, &s, scene_size(mechanism, q)).select_rows(compared);
             (rank::decide(&c, rank::Accuracy::Absolute(known)).ok()?, c)
         } else {
-            let rows = Rows::in_double(mechanism, &s, q).select(compared);
+            let rows = UncertainRows::in_double(mechanism, &s, q).select(compared);
             (rows.decide().ok()?, rows.matrix())
         };
         let point = OtherConfiguration {

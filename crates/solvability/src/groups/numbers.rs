@@ -6,7 +6,7 @@ use model::{Mechanism, Scratch, System};
 use super::error::RequestError;
 use super::group::Group;
 use super::reactions::ReactionForms;
-use crate::choices::Chosen;
+use crate::choices::ChosenValues;
 
 /// Groups whose numbers are computed at one pose after the other.
 pub struct GroupNumbers<'m> {
@@ -44,8 +44,8 @@ impl<'m> GroupNumbers<'m> {
         &mut self,
         t: f64,
         q: &[f64],
-        multipliers: &Chosen<f64>,
-    ) -> Result<Chosen<f64>, RequestError> {
+        multipliers: &ChosenValues<f64>,
+    ) -> Result<ChosenValues<f64>, RequestError> {
         let mut values = Vec::new();
         if !self.groups.is_empty() {
             self.mechanism.pose(t, q, &mut self.s);

@@ -59,7 +59,7 @@ impl<'a> ReactionForms<'a> {
         check("direction", &along, 3)?;
         let map = self.mechanism.reactions(&self.s).wrench_map(id);
         let mut form = self.zero();
-        let along = Along {
+        let along = WrenchDirection {
             force: along,
             torque: [0.0; 3],
         };
@@ -86,7 +86,7 @@ impl<'a> ReactionForms<'a> {
             .reactions(&self.s)
             .wrench_map_about(id, about);
         let mut form = self.zero();
-        let along = Along {
+        let along = WrenchDirection {
             force: [0.0; 3],
             torque: along,
         };
@@ -104,7 +104,7 @@ impl<'a> ReactionForms<'a> {
         let Some(component) = space.component(name) else {
             return self.named_component(id, name);
         };
-        let Along { force, torque } = Along::component(space, component);
+        let WrenchDirection { force, torque } = WrenchDirection::component(space, component);
         if space.forces().contains(&component) {
             self.force(id, force)
         } else {
@@ -155,7 +155,12 @@ impl<'a> ReactionForms<'a> {
                 continue;
             }
             for (k, form) in forms.iter_mut().enumerate() {
-                self.add_wrench(form, &map, 0..map.ncols(), Along::component(space, k));
+                self.add_wrench(
+                    form,
+                    &map,
+                    0..map.ncols(),
+                    WrenchDirection::component(space, k),
+                );
             }
         }
         Ok(forms)
@@ -174,8 +179,9 @@ impl<'a> ReactionForms<'a> {
             .reactions(&self.s)
             .wrench_map_about(id, about);
         for (k, form) in forms.iter_mut().enumerate() {
-            let Along { force, torque } = Along::component(self.mechanism.space(), k);
-            let along = Along {
+            let WrenchDirection { force, torque } =
+                WrenchDirection::component(self.mechanism.space(), k);
+            let along = WrenchDirection {
                 force: force.map(|x| coefficient * x),
                 torque: torque.map(|x| coefficient * x),
             };
@@ -190,7 +196,7 @@ impl<'a> ReactionForms<'a> {
         form: &mut LinearForm,
         map: &Matrix,
         rows: impl IntoIterator<Item = usize>,
-        along: Along,
+        along: WrenchDirection,
     ) {
         let space = self.mechanism.space();
         for (j, row) in rows.into_iter().enumerate() {
@@ -340,12 +346,12 @@ impl<'a> ReactionForms<'a> {
 
 /// A direction of wrenches, ground axes.
 #[derive(Clone, Copy)]
-struct Along {
+struct WrenchDirection {
     force: [f64; 3],
     torque: [f64; 3],
 }
 
-impl Along {
+impl WrenchDirection {
     /// The unit vector of a component.
     fn component(space: SpaceKind, component: usize) -> Self {
         let mut along = Self {

@@ -8,7 +8,7 @@ use crate::limits::ROUNDING_OF_MAP;
 use linalg::{Matrix, PivotedQr};
 use rank::{CoefficientReading, ExactNullSpace, RankStatus, Readings};
 
-use super::Mapped;
+use super::MultiplierMap;
 use super::error::QueryError;
 use crate::verdict::{Judgement, Verdict, worst};
 
@@ -21,14 +21,14 @@ pub(crate) struct Basis {
     /// m × p.
     pub(crate) z: Matrix,
     /// Accuracy of both.
-    pub(crate) known: Known,
+    pub(crate) known: RowAccuracy,
     /// The left null space modulo primes, if the entries are exact.
     pub(crate) exact: Option<ExactNullSpace>,
 }
 
 /// Accuracy of rows of C and Z according to the evidence of a rank.
 #[derive(Clone, Debug)]
-pub(crate) struct Known {
+pub(crate) struct RowAccuracy {
     /// Whether the rank is decided.
     pub(crate) status: RankStatus,
     /// Row factors of the equilibration, D_r.
@@ -134,8 +134,8 @@ impl Basis {
         &'a self,
         map: &'a Matrix,
         rows: impl IntoIterator<Item = usize>,
-    ) -> Result<Mapped<'a>, QueryError> {
-        Mapped::new(self, map, self.list(rows)?)
+    ) -> Result<MultiplierMap<'a>, QueryError> {
+        MultiplierMap::new(self, map, self.list(rows)?)
     }
 
     /// Whether no dependency reaches these rows: then all that follows from their multipliers is

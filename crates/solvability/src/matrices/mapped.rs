@@ -27,7 +27,7 @@ enum ForceComponent {
 /// A map W (k × |X|) from the multipliers of rows X to components, with the image of the null space
 /// under W.
 #[derive(Clone, Debug)]
-pub(crate) struct Mapped<'a> {
+pub(crate) struct MultiplierMap<'a> {
     basis: &'a Basis,
     map: &'a Matrix,
     rows: Vec<usize>,
@@ -43,7 +43,7 @@ pub(crate) struct Mapped<'a> {
     within_tolerance: Vec<ForceComponent>,
 }
 
-impl<'a> Mapped<'a> {
+impl<'a> MultiplierMap<'a> {
     pub(super) fn new(
         basis: &'a Basis,
         map: &'a Matrix,
@@ -182,7 +182,7 @@ impl<'a> Mapped<'a> {
     /// largest one that the component is unique for this reason alone.
     ///
     /// # Errors
-    /// As [`Mapped::component`].
+    /// As [`MultiplierMap::component`].
     pub(crate) fn is_zero(&self, k: usize) -> Result<bool, QueryError> {
         let judged = self.component(k)?;
         let size = self.sizes[k];
@@ -236,7 +236,7 @@ impl<'a> Mapped<'a> {
     /// stated tolerance for the unique directions; zero if there is none.
     ///
     /// # Errors
-    /// As [`Mapped::unique_directions`].
+    /// As [`MultiplierMap::unique_directions`].
     pub(crate) fn directions_left_out(&self) -> Result<f64, QueryError> {
         let none = self
             .within_tolerance

@@ -3,8 +3,8 @@
 use joints::spec::{Shape, Spec};
 use joints::{Argument, Plane, Space3, space3};
 use model::{
-    Body, BodyRef, BodySpace, ConstraintId, ConstraintKernels, Described, Description, Function,
-    Joint, Mechanism, Registry, SpatialBody, SpatialDescription, System,
+    Body, BodyRef, BodySpace, ConstraintId, ConstraintKernels, Description, Function, Joint,
+    Mechanism, MechanismDescription, Registry, SpatialBody, SpatialDescription, System,
 };
 
 use crate::{ReactionVerdict, Verdict, analyse};
@@ -89,16 +89,16 @@ fn arguments(
 trait Loops: BodySpace {
     const IS_PLANE: bool;
 
-    fn start(draw: &mut Draw) -> Described<Self>;
-    fn local(d: &Described<Self>, body: BodyRef, point: [f64; 3]) -> [f64; 3];
+    fn start(draw: &mut Draw) -> MechanismDescription<Self>;
+    fn local(d: &MechanismDescription<Self>, body: BodyRef, point: [f64; 3]) -> [f64; 3];
     fn definitions(registry: &Registry) -> &model::Definitions<Self>;
-    fn built(d: &Described<Self>) -> Option<Mechanism>;
+    fn built(d: &MechanismDescription<Self>) -> Option<Mechanism>;
 }
 
 impl Loops for Plane {
     const IS_PLANE: bool = true;
 
-    fn start(draw: &mut Draw) -> Described<Self> {
+    fn start(draw: &mut Draw) -> MechanismDescription<Self> {
         let mut d = Description::new("plane");
         for k in 0..3 {
             let [x, y, angle] = draw.vector();
@@ -111,7 +111,7 @@ impl Loops for Plane {
         d
     }
 
-    fn local(d: &Described<Self>, body: BodyRef, [x, y, _]: [f64; 3]) -> [f64; 3] {
+    fn local(d: &MechanismDescription<Self>, body: BodyRef, [x, y, _]: [f64; 3]) -> [f64; 3] {
         let [x, y] = d.local(body, [x, y]);
         [x, y, 0.0]
     }
@@ -120,7 +120,7 @@ impl Loops for Plane {
         registry.plane()
     }
 
-    fn built(d: &Described<Self>) -> Option<Mechanism> {
+    fn built(d: &MechanismDescription<Self>) -> Option<Mechanism> {
         Mechanism::build(d).ok()
     }
 }

@@ -17,7 +17,7 @@ use linalg::{Matrix, PivotedQr};
 use model::{Mechanism, Scratch, System};
 
 /// Independent rows that stay satisfied, scaled.
-pub(super) struct Followed {
+pub(super) struct FollowedRows {
     /// Rows of the mechanism, each with the factor to its scaled form.
     rows: Vec<(usize, f64)>,
     /// Factor of each column to its scaled form.
@@ -25,7 +25,7 @@ pub(super) struct Followed {
     qr: PivotedQr,
 }
 
-impl Followed {
+impl FollowedRows {
     /// Takes factored rows of a scaled C.
     pub(super) fn new(qr: PivotedQr, rows: Vec<(usize, f64)>, columns: Vec<f64>) -> Self {
         Self { rows, columns, qr }
@@ -95,8 +95,8 @@ pub(super) struct Step {
     /// Displacement (physical units).
     moved: Vec<f64>,
     /// The holonomic kept rows at the first pose, and all kept rows in the middle.
-    positions: Followed,
-    velocities: Followed,
+    positions: FollowedRows,
+    velocities: FollowedRows,
 }
 
 /// Numbers of substeps, tried one after the other until two results agree.
@@ -123,10 +123,10 @@ impl Ground<'_> {
         (s, c)
     }
 
-    pub(super) fn followed(&self, c: &Matrix, rows: &[usize]) -> Followed {
+    pub(super) fn followed(&self, c: &Matrix, rows: &[usize]) -> FollowedRows {
         let own = rows.iter().map(|&i| (i, 1.0)).collect();
         let factored = PivotedQr::of_rows(c.select_rows(rows));
-        Followed::new(factored, own, self.units.to_vec())
+        FollowedRows::new(factored, own, self.units.to_vec())
     }
 
     /// The kept rows of Φ.

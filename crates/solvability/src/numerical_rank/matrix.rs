@@ -9,7 +9,7 @@ use crate::pose::dimensionless;
 use std::ops::Range;
 
 use linalg::{DdMatrix, Matrix, Scaling, equilibrate_blocks};
-use model::{Known, Mechanism, Scratch, SpaceKind, System};
+use model::{ConfigurationAccuracy, Mechanism, Scratch, SpaceKind, System};
 
 /// C without dimensions, with the uncertainty of its entries.
 #[derive(Clone, Debug)]
@@ -27,7 +27,12 @@ pub(crate) struct UncertainMatrix {
 impl UncertainMatrix {
     /// Evaluates C at the pose of the scratch, in which Φ and C have been evaluated, for a
     /// mechanism of this size.
-    pub(crate) fn new(mechanism: &Mechanism, s: &Scratch, size: f64, known: Known) -> Self {
+    pub(crate) fn new(
+        mechanism: &Mechanism,
+        s: &Scratch,
+        size: f64,
+        known: ConfigurationAccuracy,
+    ) -> Self {
         let uncertainty = mechanism
             .layout()
             .dimension_scaling(size)

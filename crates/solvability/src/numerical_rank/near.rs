@@ -242,7 +242,7 @@ impl Lower<'_> {
             });
             poses.collect::<Vec<_>>()
         });
-        let poses = |reach: [usize; 2]| -> Vec<&[Asked]> {
+        let poses = |reach: [usize; 2]| -> Vec<&[PoseEquation]> {
             let [one, other] = &sides;
             let others = one[..reach[0]].iter().chain(&other[..reach[1]]);
             std::iter::once(&start)
@@ -289,7 +289,7 @@ impl Lower<'_> {
 
     /// The equations that must hold at the pose of the scratch, reached by a path on the rows
     /// `held`.
-    fn at(&self, s: &Scratch, held: &[usize], way: &[&Step]) -> Vec<Asked> {
+    fn at(&self, s: &Scratch, held: &[usize], way: &[&Step]) -> Vec<PoseEquation> {
         let question = self.question;
         // Uses the scaling of the first pose, so that all equations have the same unit.
         let scaled = self.scaling.apply(&question.dimensionless(s));
@@ -316,7 +316,7 @@ impl Lower<'_> {
 
     /// The equations for the entries. With nonholonomic rows the pose depends on the data along the
     /// path, from the start on, which has the uncertainty of the data.
-    fn asked(&self, pose: &Pose<'_>, way: &[&Step], noise: f64) -> Vec<Asked> {
+    fn asked(&self, pose: &Pose<'_>, way: &[&Step], noise: f64) -> Vec<PoseEquation> {
         let question = self.question;
         let (blocks, known) = (&self.blocks[..], &self.known[..]);
         let of_pair = |at: (usize, usize)| {
@@ -325,7 +325,7 @@ impl Lower<'_> {
             for step in way {
                 step.carry_back(question.mechanism, pose, data);
             }
-            Asked {
+            PoseEquation {
                 equation: equation(target, &gradient.data, (blocks, known), noise),
                 unit: 1.0,
                 by_start: question.by_place(&gradient.pose, self.least, self.by_angles),
@@ -336,13 +336,13 @@ impl Lower<'_> {
 
     /// The equations for residuals: rows that depend on each other must also agree. Equations of
     /// lengths are divided by the size.
-    fn misfits(&self, pose: &Pose<'_>, noise: f64) -> Vec<Asked> {
+    fn misfits(&self, pose: &Pose<'_>, noise: f64) -> Vec<PoseEquation> {
         let question = self.question;
         let (blocks, known) = (&self.blocks[..], &self.known[..]);
         let noise = noise * question.size;
         let of_row = |a: usize| {
             let (target, gradient) = pose.misfit(a)?;
-            Some(Asked {
+            Some(PoseEquation {
                 equation: equation(target, &gradient, (blocks, known), noise),
                 unit: question.size,
                 by_start: vec![[0.0; 3]; 2 * question.s.bodies.len()],
@@ -355,7 +355,7 @@ impl Lower<'_> {
 
     /// The fraction of `least` by which the data have to change, if the second-order terms of
     /// changes up to `share` of it are left open.
-    fn change(&self, poses: &[&[Asked]], share: f64, start: Start) -> f64 {
+    fn change(&self, poses: &[&[PoseEquation]], share: f64, start: Start) -> f64 {
         let curved = CURVED * (self.least / self.question.size).powi(2) * share.min(1.0);
         let equations = poses.iter().copied().flatten();
         let equations: Vec<Equation> = equations.map(|asked| asked.loose(curved, start)).collect();
@@ -372,7 +372,7 @@ enum Start {
 }
 
 /// An equation that must hold at a pose.
-struct Asked {
+struct PoseEquation {
     equation: Equation,
     /// Unit of the equation (m, or 1 for an entry).
     unit: f64,
@@ -380,7 +380,7 @@ struct Asked {
     by_start: Vec<[f64; 3]>,
 }
 
-impl Asked {
+impl PoseEquation {
     /// The equation with the second-order terms of a change left open.
     fn loose(&self, curved: f64, start: Start) -> Equation {
         let mut equation = self.equation.clone();

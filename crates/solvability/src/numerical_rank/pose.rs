@@ -11,7 +11,7 @@ use crate::limits::{HOLONOMIC, RESOLVED};
 use linalg::{Matrix, PivotedQr, RowBasis, Scaling, kernels, small_svd};
 use model::{ForceDerivatives, Mechanism, Scratch, System};
 
-use super::follow::Followed;
+use super::follow::FollowedRows;
 
 /// A pose, with the rows and columns kept for a lower rank.
 pub(super) struct Pose<'a> {
@@ -23,7 +23,7 @@ pub(super) struct Pose<'a> {
     columns: Vec<f64>,
     rows: Vec<f64>,
     /// The kept holonomic rows.
-    positions: Followed,
+    positions: FollowedRows,
     /// The values that must vanish for the lower rank, `Uᵀ·C·V = diag(σ)`: left vectors as rows
     /// (scaled), right vectors as rows (scaled), and σ.
     pub(super) left: Matrix,
@@ -206,7 +206,7 @@ impl<'a> Pose<'a> {
         } else {
             PivotedQr::of_rows(scaled.select_rows(&holonomic))
         };
-        let positions = Followed::new(factored, of_mechanism, columns.clone());
+        let positions = FollowedRows::new(factored, of_mechanism, columns.clone());
         Self {
             mechanism,
             s,

@@ -8,7 +8,7 @@ use rank::{DeletionError, Limits, count_deletions, deletions};
 
 use super::Questions;
 use crate::groups::RequestError;
-use crate::make_unique::{Allowed, Proposals, make_unique};
+use crate::make_unique::{DeletableRows, Proposals, make_unique};
 use crate::parts::ListedRows;
 
 /// Reason why it cannot be determined what may be deleted.
@@ -105,18 +105,18 @@ impl Questions<'_> {
     pub fn make_unique(
         &self,
         id: ConstraintId,
-        allowed: &Allowed,
+        allowed: &DeletableRows,
         limits: Limits,
     ) -> Result<Proposals, EliminationError> {
         let (k, own) = self.place(id)?;
         let extent = &self.parts()[k].extent;
         let allowed = match (allowed, extent.is_whole()) {
-            (Allowed::Rows(all), false) => {
+            (DeletableRows::Rows(all), false) => {
                 let rows = self.mechanism.layout().rows();
                 if let Some(&row) = all.iter().find(|&&row| row >= rows) {
                     return Err(DeletionError::RowOutOfRange { row, rows }.into());
                 }
-                Cow::Owned(Allowed::Rows(extent.own_rows(&ListedRows::new(all))))
+                Cow::Owned(DeletableRows::Rows(extent.own_rows(&ListedRows::new(all))))
             }
             _ => Cow::Borrowed(allowed),
         };

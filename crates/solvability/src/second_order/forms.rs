@@ -12,7 +12,7 @@ use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
 
-use super::undetermined::Undetermined;
+use super::undetermined::SecondOrderDoubt;
 
 /// The forms, divided by their largest coefficient.
 pub(super) struct Forms {
@@ -36,7 +36,7 @@ impl Forms {
         v: &[f64],
         decision: &RankDecision,
         regular: &Matrix,
-    ) -> Result<Self, Undetermined> {
+    ) -> Result<Self, SecondOrderDoubt> {
         let driven = mechanism.layout().rheonomic;
         Self::of(mechanism, (t, q, v), decision, regular, driven)
     }
@@ -47,7 +47,7 @@ impl Forms {
         t: f64,
         q: &[f64],
         decision: &RankDecision,
-    ) -> Result<Self, Undetermined> {
+    ) -> Result<Self, SecondOrderDoubt> {
         let n = mechanism.layout().n_v;
         let rest = vec![0.0; n];
         Self::of(
@@ -65,7 +65,7 @@ impl Forms {
         decision: &RankDecision,
         regular: &Matrix,
         driven: bool,
-    ) -> Result<Self, Undetermined> {
+    ) -> Result<Self, SecondOrderDoubt> {
         let mut s = evaluated(mechanism, t, q);
         let size = scene_size(mechanism, q);
         let units = velocity_units(mechanism, size);
@@ -87,7 +87,7 @@ impl Forms {
         let (coordinates, x_1) = split(&null.transpose().product(&own))?;
         let y = coordinates.ncols() - x_1;
         if y > FORMS_MAX {
-            return Err(Undetermined::Kernel {
+            return Err(SecondOrderDoubt::Kernel {
                 found: y,
                 most: FORMS_MAX,
             });
@@ -217,14 +217,14 @@ impl Forms {
     }
 
     /// Divides by the largest coefficient and checks that the motion itself is a solution.
-    fn normalise(&mut self, terms: f64) -> Result<(), Undetermined> {
+    fn normalise(&mut self, terms: f64) -> Result<(), SecondOrderDoubt> {
         let largest = self
             .matrices
             .iter()
             .map(Matrix::max_abs)
             .fold(0.0, f64::max);
         if self.y() > 0 && largest <= FORM_ROUNDING * terms {
-            return Err(Undetermined::NoTerms);
+            return Err(SecondOrderDoubt::NoTerms);
         }
         let mut residual = 0.0_f64;
         for form in &mut self.matrices {
@@ -239,7 +239,7 @@ impl Forms {
             }
         }
         if self.y() > 0 && residual > REGULAR {
-            Err(Undetermined::Irregular {
+            Err(SecondOrderDoubt::Irregular {
                 residual,
                 tolerance: REGULAR,
             })
@@ -250,11 +250,11 @@ impl Forms {
 }
 
 /// Orthonormal coordinates, the first of which span the columns, and their number.
-fn split(columns: &Matrix) -> Result<(Matrix, usize), Undetermined> {
-    let decision =
-        rank::decide(columns, rank::Accuracy::Absolute(REGULAR)).map_err(Undetermined::Regular)?;
+fn split(columns: &Matrix) -> Result<(Matrix, usize), SecondOrderDoubt> {
+    let decision = rank::decide(columns, rank::Accuracy::Absolute(REGULAR))
+        .map_err(SecondOrderDoubt::Regular)?;
     match decision.status {
-        RankStatus::Undecided(doubt) => Err(Undetermined::RegularCount(doubt)),
+        RankStatus::Undecided(doubt) => Err(SecondOrderDoubt::RegularCount(doubt)),
         _ => {
             let q = PivotedQr::of_columns(columns).q_columns(0..columns.nrows());
             Ok((q, decision.rank))

@@ -10,7 +10,7 @@ use model::start::scene_size;
 use model::{Mechanism, System};
 
 use super::forms::Forms;
-use super::undetermined::Undetermined;
+use super::undetermined::SecondOrderDoubt;
 use super::zeros::{CommonZero, common_zero, is_transversal};
 use crate::pose::velocity_units;
 
@@ -30,7 +30,7 @@ pub enum SecondOrder {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Restricted {
+pub struct RestrictedVelocities {
     /// The bodies, ascending.
     pub bodies: Vec<usize>,
     /// A basis of the velocities, n_v each, orthonormal without dimensions; they are orthogonal to
@@ -48,16 +48,16 @@ pub struct Restricted {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Restrictions {
     /// Restricted velocities, set by set.
-    pub restricted: Vec<Restricted>,
+    pub restricted: Vec<RestrictedVelocities>,
     /// Number of independent velocities that no equation contains.
     pub unrestricted: usize,
     /// Why there are no equations, although there may be restrictions.
-    pub undetermined: Option<Undetermined>,
+    pub undetermined: Option<SecondOrderDoubt>,
 }
 
 /// What second order says of an acceleration from rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Accelerated {
+pub(crate) enum AccelerationVerdict {
     /// It satisfies the equations, and there is such an acceleration if coefficients change a
     /// little.
     Possible,
@@ -67,9 +67,9 @@ pub(crate) enum Accelerated {
     Undecided,
 }
 
-impl Restricted {
+impl RestrictedVelocities {
     /// What second order says of an acceleration from rest with these coordinates, not all zero.
-    pub(crate) fn accelerated(&self, along: &[f64]) -> Accelerated {
+    pub(crate) fn accelerated(&self, along: &[f64]) -> AccelerationVerdict {
         let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
         let a: Vec<f64> = along.iter().map(|x| x / length).collect();
         let size: f64 = a.iter().map(|x| x.abs()).sum();
@@ -77,11 +77,11 @@ impl Restricted {
         let mut values = self.forms.iter().map(|m| value(m).abs());
         if self.second_order == SecondOrder::Blocked || values.any(|x| x > FORM_NOISE * size * size)
         {
-            Accelerated::Excluded
+            AccelerationVerdict::Excluded
         } else if is_transversal(&self.forms, FORM_NOISE, &a) {
-            Accelerated::Possible
+            AccelerationVerdict::Possible
         } else {
-            Accelerated::Undecided
+            AccelerationVerdict::Undecided
         }
     }
 }
@@ -120,7 +120,7 @@ impl Restrictions {
             let across = own.transpose();
             let in_set = |m: &Matrix| own.product(&m.product(&across));
             let in_set: Vec<Matrix> = forms.matrices.iter().map(in_set).collect();
-            Restricted {
+            RestrictedVelocities {
                 bodies,
                 velocities: (0..own.nrows())
                     .map(|k| forms.velocity(own.row(k)))

@@ -6,7 +6,7 @@ use rank::{Doubt, RankError};
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum Undetermined {
+pub enum SecondOrderDoubt {
     /// There are more new motions than are examined.
     #[error("{found} new motions at once, more than the {most} that are examined")]
     Kernel {

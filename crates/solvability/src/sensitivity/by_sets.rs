@@ -5,8 +5,8 @@
 
 use model::{ConstraintId, Mechanism, System};
 
-use super::instant::{Change, Instant};
-use super::joined::{Joined, each_joined};
+use super::instant::{Change, SolvedEquations};
+use super::joined::{JoinedBodies, each_joined};
 use super::number::ReactionNumber;
 use crate::choices::{ChoiceError, solution_under};
 use crate::limits::ROWS_MAX;
@@ -106,7 +106,7 @@ fn within(extent: &Extent, part: &Mechanism, of_joint: &[Vec<usize>]) -> Vec<usi
 }
 
 fn of_set(
-    joined: &Joined<'_>,
+    joined: &JoinedBodies<'_>,
     t: f64,
     kept: &[usize],
     numbers: &[ReactionNumber],
@@ -152,13 +152,13 @@ fn place(change: &mut Change, extent: &Extent) {
 /// The shares of connected bodies in these numbers, with respect to all data of these bodies.
 /// `places` are the places of the numbers in a list of the caller.
 fn of_joined(
-    joined: &Joined<'_>,
+    joined: &JoinedBodies<'_>,
     t: f64,
     kept: &[usize],
     own: &[ReactionNumber],
     places: &[usize],
 ) -> Result<Vec<Share>, SetError> {
-    let mut instant = Instant::new(joined, t, kept)?;
+    let mut instant = SolvedEquations::new(joined, t, kept)?;
     let changes = instant.changes(own)?.into_iter();
     let shares = changes.zip(own).zip(places);
     let share = |((change, own), &number): ((Change, &ReactionNumber), &usize)| Share {
@@ -172,7 +172,7 @@ fn of_joined(
 /// Like [`of_joined`], part by part, each with respect to its own data; parts that are too large
 /// are left out.
 fn by_parts(
-    joined: &Joined<'_>,
+    joined: &JoinedBodies<'_>,
     t: f64,
     kept: Vec<usize>,
     numbers: &[ReactionNumber],

@@ -10,7 +10,7 @@ use super::number::ReactionNumber;
 use crate::limits::{FOLLOW_CORRECTIONS, FOLLOW_END, FOLLOW_FIRST, FOLLOW_JUMP, FOLLOW_STEPS};
 
 /// The equations of connected bodies at one instant, whose data move.
-pub(super) struct Displaced<'a> {
+pub(super) struct DisplacedEquations<'a> {
     pub(super) mechanism: &'a Mechanism,
     pub(super) t: f64,
     pub(super) q: &'a [f64],
@@ -24,7 +24,7 @@ pub(super) struct Displaced<'a> {
     pub(super) size: f64,
 }
 
-impl Displaced<'_> {
+impl DisplacedEquations<'_> {
     /// The largest changes of numbers from these values on the way to other data. `data` are all
     /// numbers of the constraints after a share of the displacement; bodies follow in several
     /// steps. `None` if no pose near the one before satisfies the rows.

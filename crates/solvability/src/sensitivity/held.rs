@@ -19,7 +19,7 @@ pub(super) struct HeldSlopes {
 }
 
 /// A mechanism at an instant with its multipliers.
-pub(super) struct Held<'a> {
+pub(super) struct HeldMultipliers<'a> {
     pub(super) mechanism: &'a Mechanism,
     pub(super) t: f64,
     pub(super) q: &'a [f64],
@@ -28,7 +28,7 @@ pub(super) struct Held<'a> {
     pub(super) size: f64,
 }
 
-impl Held<'_> {
+impl HeldMultipliers<'_> {
     /// The derivatives of these numbers, by central differences of values at neighbouring poses and
     /// of mechanisms that store neighbouring data.
     pub(super) fn slopes(

@@ -14,9 +14,9 @@ use model::{
     ColumnKind, ConstraintId, DataBlock, DataGradients, DataUnit, Derivatives, Mechanism, System,
 };
 
-use super::displaced::Displaced;
-use super::held::{Held, HeldSlopes};
-use super::joined::Joined;
+use super::displaced::DisplacedEquations;
+use super::held::{HeldMultipliers, HeldSlopes};
+use super::joined::JoinedBodies;
 use super::number::ReactionNumber;
 use crate::choices::ChoiceError;
 use crate::value::{Datum, Sensitivity};
@@ -26,7 +26,7 @@ use crate::value::{Datum, Sensitivity};
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
 /// The solved equations of connected bodies at one instant.
-pub(super) struct Instant<'a> {
+pub(super) struct SolvedEquations<'a> {
     mechanism: &'a Mechanism,
     q: &'a [f64],
     s: model::Scratch,
@@ -36,7 +36,7 @@ pub(super) struct Instant<'a> {
     lambda: Vec<f64>,
     slopes: Slopes,
     /// The equations with displaced data, where a pose of lower rank is near.
-    displaced: Option<Displaced<'a>>,
+    displaced: Option<DisplacedEquations<'a>>,
     /// Points, directions and numbers, with the displacement of each.
     blocks: Vec<(DataBlock, f64)>,
     /// Largest applied or inertial load (N; torques divided by the size).
@@ -82,10 +82,10 @@ impl Work {
     }
 }
 
-impl<'a> Instant<'a> {
+impl<'a> SolvedEquations<'a> {
     /// Solves the equations at time t with independent rows `kept`.
     pub(super) fn new(
-        joined: &'a Joined<'a>,
+        joined: &'a JoinedBodies<'a>,
         t: f64,
         kept: &'a [usize],
     ) -> Result<Self, ChoiceError> {
@@ -141,7 +141,7 @@ impl<'a> Instant<'a> {
         };
         let phi_q = Follow::new(&rows, kept[..holonomic].to_vec(), &units);
         Ok(Self {
-            displaced: is_near_limit(&rows, &units).then(|| Displaced {
+            displaced: is_near_limit(&rows, &units).then(|| DisplacedEquations {
                 mechanism,
                 t,
                 q: &joined.q,
@@ -176,7 +176,7 @@ impl<'a> Instant<'a> {
         &mut self,
         numbers: &[ReactionNumber],
     ) -> Result<Vec<Change>, ChoiceError> {
-        let held = Held {
+        let held = HeldMultipliers {
             mechanism: self.mechanism,
             t: self.s.t,
             q: self.q,

@@ -11,7 +11,7 @@ use crate::choices::Solution;
 use crate::parts::{Extent, Partition};
 
 /// A set of bodies with the joints between them, and the forces on it.
-pub(super) struct Joined<'a> {
+pub(super) struct JoinedBodies<'a> {
     /// The mechanism of the set; without forces, unless it is the whole mechanism.
     pub(super) mechanism: &'a Mechanism,
     /// Joints, bodies and rows of the set in the whole mechanism.
@@ -23,7 +23,7 @@ pub(super) struct Joined<'a> {
     pub(super) force: Cow<'a, [f64]>,
 }
 
-impl Joined<'_> {
+impl JoinedBodies<'_> {
     /// A part of the set with its own joints, given a solution of the whole set: the forces of the
     /// other joints on its bodies become constant loads.
     pub(super) fn of_part<'b>(
@@ -32,7 +32,7 @@ impl Joined<'_> {
         extent: &'b Extent,
         t: f64,
         solution: &Solution,
-    ) -> Joined<'b> {
+    ) -> JoinedBodies<'b> {
         let own = |x: &[f64]| extent.velocities(x).into_owned();
         let q = extent.coordinates(&self.q).into_owned();
         let mut s = part.scratch();
@@ -46,7 +46,7 @@ impl Joined<'_> {
                 .row(&s, i)
                 .for_each(|(j, c)| force[j] += c * l);
         }
-        Joined {
+        JoinedBodies {
             mechanism: part,
             extent,
             q: q.into(),
@@ -83,14 +83,14 @@ fn sets(mechanism: &Mechanism) -> Partition {
 pub(super) fn each_joined<T: Send>(
     mechanism: &Mechanism,
     (t, q, v): (f64, &[f64], &[f64]),
-    f: impl Fn(&Joined<'_>, &Extent) -> T + Sync,
+    f: impl Fn(&JoinedBodies<'_>, &Extent) -> T + Sync,
 ) -> Vec<T> {
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);
     mechanism.twist(v, &mut s);
     mechanism.force(&mut s);
     let found = sets(mechanism).map(mechanism, |part, extent| {
-        let joined = Joined {
+        let joined = JoinedBodies {
             mechanism: part,
             q: extent.coordinates(q),
             v: extent.velocities(v),

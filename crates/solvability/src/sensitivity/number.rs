@@ -13,12 +13,12 @@ use crate::parts::Extent;
 /// A number that is linear in the reactions of some joints and drives: the sum of its terms.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReactionNumber {
-    terms: Vec<Term>,
+    terms: Vec<ReactionTerm>,
 }
 
 /// One reaction, multiplied by a fixed vector or read in axes that follow the pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Term {
+struct ReactionTerm {
     joint: ConstraintId,
     factor: f64,
     kind: Kind,
@@ -118,7 +118,7 @@ impl ReactionNumber {
                             torque,
                             about,
                         };
-                        Term {
+                        ReactionTerm {
                             joint,
                             factor,
                             kind,
@@ -147,7 +147,7 @@ impl ReactionNumber {
 
     fn of(joint: ConstraintId, factor: f64, kind: Kind) -> Self {
         Self {
-            terms: vec![Term {
+            terms: vec![ReactionTerm {
                 joint,
                 factor,
                 kind,
@@ -178,7 +178,7 @@ impl ReactionNumber {
             None if group.spec.component == Some(name) => Kind::Named,
             None => return Err(unknown()),
         };
-        self.terms.push(Term {
+        self.terms.push(ReactionTerm {
             joint,
             factor,
             kind,
@@ -200,7 +200,7 @@ impl ReactionNumber {
     pub(super) fn within(&self, extent: &Extent) -> Self {
         let own = self.terms.iter().filter_map(|term| {
             let joint = ConstraintId(extent.own_group(term.joint.0)?);
-            Some(Term { joint, ..*term })
+            Some(ReactionTerm { joint, ..*term })
         });
         Self {
             terms: own.collect(),
@@ -211,7 +211,7 @@ impl ReactionNumber {
     /// the largest.
     pub(super) fn unit(&self, mechanism: &Mechanism, size: f64) -> f64 {
         let space = mechanism.space();
-        let of = |term: &Term| {
+        let of = |term: &ReactionTerm| {
             let own = match term.kind {
                 Kind::Along { force, torque, .. } => norm(&force).hypot(size * norm(&torque)),
                 Kind::Named if turns(&mechanism.layout().groups[term.joint.0]) => size,

@@ -166,7 +166,7 @@ fn sentences(
 }
 
 /// Which number of a reaction is computed.
-enum Asked {
+enum NumberKey {
     Component(&'static str),
     /// The live direction at this place of the list.
     Direction(usize),
@@ -202,8 +202,8 @@ impl Analysis {
         for ((id, what), found) in asked.into_iter().zip(found) {
             let own = &mut all.each[id.0];
             match what {
-                Asked::Component(name) => own.components.extend(found.map(|s| (name, s))),
-                Asked::Direction(k) => {
+                NumberKey::Component(name) => own.components.extend(found.map(|s| (name, s))),
+                NumberKey::Direction(k) => {
                     own.directions.resize(k + 1, None);
                     own.directions[k] = found;
                 }
@@ -280,7 +280,7 @@ fn aligned(reaction: &ReactionVerdict, direction: &[f64]) -> Option<&'static str
 fn numbers_of(
     mechanism: &Mechanism,
     reaction: &ReactionVerdict,
-) -> Result<Vec<(Asked, ReactionNumber)>, ChoiceError> {
+) -> Result<Vec<(NumberKey, ReactionNumber)>, ChoiceError> {
     let id = reaction.id;
     let unique = |c: &&crate::judged::ComponentVerdict| c.judgement.verdict.is_unique();
     let mut names: Vec<&'static str> = reaction
@@ -294,7 +294,7 @@ fn numbers_of(
     let mut numbers = Vec::new();
     for name in names {
         let number = ReactionNumber::component(mechanism, id, name)?;
-        numbers.push((Asked::Component(name), number));
+        numbers.push((NumberKey::Component(name), number));
     }
     for (k, direction) in reaction.live_directions.iter().flatten().enumerate() {
         if aligned(reaction, direction).is_some() {
@@ -303,7 +303,7 @@ fn numbers_of(
         let names = reaction.components.iter().map(|c| c.name);
         let terms = names.zip(direction.iter().copied());
         let number = ReactionNumber::direction(mechanism, id, terms)?;
-        numbers.push((Asked::Direction(k), number));
+        numbers.push((NumberKey::Direction(k), number));
     }
     Ok(numbers)
 }

@@ -9,12 +9,12 @@
 use std::borrow::Cow;
 
 use linalg::Matrix;
-use model::{ConstraintId, Known, Mechanism, Scratch, System};
+use model::{ConfigurationAccuracy, ConstraintId, Mechanism, Scratch, System};
 use rank::RankStatus;
 
 use super::recorder::Verdicts;
-use super::{Looked, Stretches, VerdictRecorder, VerdictTrack};
-use crate::certificate::Rows;
+use super::{InstantOrder, Stretches, VerdictRecorder, VerdictTrack};
+use crate::certificate::UncertainRows;
 use crate::components::{all_components, judge_components, number_names};
 use crate::error::AnalysisError;
 use crate::groups::{Group, LinearForm, ReactionForms, RequestError};
@@ -22,7 +22,7 @@ use crate::limits::ROWS_MAX;
 use crate::matrices::{self, Basis, QueryError, Solvability, orthonormal};
 use crate::parts::{Extent, open_parts};
 use crate::pose::evaluated;
-use crate::sparse::Decided;
+use crate::sparse::SparseDecision;
 use crate::verdict::Verdict;
 
 /// The verdicts of a motion of a mechanism, collected while it goes.
@@ -30,13 +30,13 @@ pub struct CarriedVerdicts<'m> {
     mechanism: &'m Mechanism,
     /// Length that makes C dimensionless (m).
     size: f64,
-    accuracy: Known,
+    accuracy: ConfigurationAccuracy,
     /// The same at the start, which is stored.
-    at_start: Known,
+    at_start: ConfigurationAccuracy,
     parts: Vec<OpenPart<'m>>,
     groups: Vec<Group>,
     /// What is judged.
-    numbers: Vec<Number>,
+    numbers: Vec<JudgedNumber>,
     recorder: VerdictRecorder,
 }
 
@@ -59,7 +59,7 @@ struct OpenPart<'m> {
 
 /// Accuracy of vectors of a left null space.
 struct Accuracy {
-    known: matrices::Known,
+    known: matrices::RowAccuracy,
     /// The smallest singular value of the equilibrated rows.
     sigma: f64,
     /// Factors of the columns of the mechanism in the equilibrated rows; zero for columns of other
@@ -109,8 +109,8 @@ impl<'m> CarriedVerdicts<'m> {
         let mut carried = Self {
             mechanism,
             size: model::start::scene_size(mechanism, q),
-            accuracy: Known::To(rtol),
-            at_start: Known::AsStored,
+            accuracy: ConfigurationAccuracy::To(rtol),
+            at_start: ConfigurationAccuracy::AsStored,
             parts,
             groups: groups.to_vec(),
             numbers: Vec::new(),
@@ -129,7 +129,7 @@ impl<'m> CarriedVerdicts<'m> {
 
     /// Takes the verdicts at a state. Where C cannot be analysed they are undecided, with the
     /// reason.
-    pub fn look(&mut self, at: &CarriedState<'_>, looked: Looked) {
+    pub fn look(&mut self, at: &CarriedState<'_>, looked: InstantOrder) {
         let verdicts = self.verdicts(at).unwrap_or_else(|error| {
             let reason = error.to_string();
             vec![Some(Verdict::Undecided { reason }); self.recorder.numbers()]
@@ -146,7 +146,7 @@ impl<'m> CarriedVerdicts<'m> {
         // By joint, whether its force and its torque are free.
         let mut free: Vec<[Option<bool>; 2]> = vec![[None; 2]; joints];
         for (k, number) in self.numbers.iter().enumerate() {
-            if let Number::Component(id, name) = number
+            if let JudgedNumber::Component(id, name) = number
                 && let Some(place) = space.component(name)
             {
                 let is_free = self.recorder.latest(k) == Some(&Verdict::NotUnique);
@@ -170,7 +170,7 @@ impl<'m> CarriedVerdicts<'m> {
     }
 
     /// Takes note of a state that says nothing of others: the rank drops there.
-    pub fn pass(&mut self, t: f64, looked: Looked) {
+    pub fn pass(&mut self, t: f64, looked: InstantOrder) {
         let nothing = vec![None; self.recorder.numbers()];
         self.recorder.see(t, looked, nothing);
     }
@@ -192,14 +192,14 @@ impl<'m> CarriedVerdicts<'m> {
             None => vec![None; self.recorder.numbers()],
         };
         let pairs = self.numbers.iter().zip(verdicts);
-        let component = |(number, verdict): (&Number, Option<Verdict>)| match *number {
-            Number::Component(id, name) => {
+        let component = |(number, verdict): (&JudgedNumber, Option<Verdict>)| match *number {
+            JudgedNumber::Component(id, name) => {
                 let open = || Verdict::Undecided {
                     reason: lower.to_owned(),
                 };
                 Some((id, name, verdict.unwrap_or_else(open)))
             }
-            Number::Group(..) => None,
+            JudgedNumber::Group(..) => None,
         };
         pairs.filter_map(component).collect()
     }
@@ -247,18 +247,18 @@ impl<'m> CarriedVerdicts<'m> {
     }
 
     /// The numbers that are judged, part by part: components of its joints, then those of groups.
-    fn all_numbers(&self) -> Vec<Number> {
+    fn all_numbers(&self) -> Vec<JudgedNumber> {
         let layout = self.mechanism.layout();
         let mut numbers = Vec::new();
         for part in &self.parts {
             for own in 0..part.mechanism.layout().groups.len() {
                 let id = ConstraintId(part.extent.group(own));
                 let names = number_names(&layout.groups[id.0]);
-                numbers.extend(names.map(|name| Number::Component(id, name)));
+                numbers.extend(names.map(|name| JudgedNumber::Component(id, name)));
             }
             for (k, group) in self.groups.iter().enumerate() {
                 let names = group.number_names(layout.space);
-                numbers.extend(names.iter().map(|name| Number::Group(k, name)));
+                numbers.extend(names.iter().map(|name| JudgedNumber::Group(k, name)));
             }
         }
         numbers
@@ -270,13 +270,13 @@ impl<'m> CarriedVerdicts<'m> {
         let mut stretches = Stretches::unique(self.mechanism, extent, &self.groups);
         for (number, track) in self.numbers.into_iter().zip(self.recorder.finish(extent)) {
             match number {
-                Number::Component(id, name) => {
+                JudgedNumber::Component(id, name) => {
                     let own = &mut stretches.reactions[id.0].components;
                     if let Some((_, known)) = own.iter_mut().find(|(n, _)| *n == name) {
                         *known = track;
                     }
                 }
-                Number::Group(k, name) => {
+                JudgedNumber::Group(k, name) => {
                     let own = &mut stretches.groups[k].numbers;
                     if let Some((_, known)) = own.iter_mut().find(|(n, _)| *n == name) {
                         *known = VerdictTrack::together(&[known, &track]);
@@ -290,7 +290,7 @@ impl<'m> CarriedVerdicts<'m> {
 }
 
 /// A number that is judged.
-enum Number {
+enum JudgedNumber {
     Component(ConstraintId, &'static str),
     Group(usize, &'static str),
 }
@@ -301,10 +301,10 @@ impl OpenPart<'_> {
         &mut self,
         whole: &Mechanism,
         at: &CarriedState<'_>,
-        known: Known,
+        known: ConfigurationAccuracy,
         forms: &[LinearForm],
     ) -> Result<Verdicts, AnalysisError> {
-        let of_motion = known != Known::AsStored;
+        let of_motion = known != ConfigurationAccuracy::AsStored;
         if of_motion && let Some(accuracy) = &self.known {
             let basis = self.carried_basis(whole, at, accuracy);
             let found = self.judged(whole, at, forms, &|_| Cow::Borrowed(&basis));
@@ -328,7 +328,7 @@ impl OpenPart<'_> {
         &mut self,
         whole: &Mechanism,
         at: &CarriedState<'_>,
-        known: Known,
+        known: ConfigurationAccuracy,
         forms: &[LinearForm],
     ) -> Result<Verdicts, AnalysisError> {
         let q = self.extent.coordinates(at.q);
@@ -336,12 +336,12 @@ impl OpenPart<'_> {
         let (found, accuracy) = if self.rows.len() <= ROWS_MAX {
             // A configuration that is only accurate to the motion gains nothing in double-double.
             let s = evaluated(&self.mechanism, at.t, &q);
-            let rows = if known == Known::AsStored {
-                Rows::new(&self.mechanism, at.t, &q, known)?
+            let rows = if known == ConfigurationAccuracy::AsStored {
+                UncertainRows::new(&self.mechanism, at.t, &q, known)?
             } else {
-                Rows::at(&self.mechanism, Cow::Borrowed(&s), &q, known)
+                UncertainRows::at(&self.mechanism, Cow::Borrowed(&s), &q, known)
             };
-            let decision = if known == Known::AsStored {
+            let decision = if known == ConfigurationAccuracy::AsStored {
                 Some(rows.decide()?)
             } else {
                 rows.of_rank(self.rows.len() - self.redundancy)?
@@ -370,7 +370,7 @@ impl OpenPart<'_> {
             (found.map_err(query)?, accuracy)
         } else {
             let s = evaluated(&self.mechanism, at.t, &q);
-            let decided = Decided::of(&self.mechanism, &s, &q, 0..self.rows.len())?;
+            let decided = SparseDecision::of(&self.mechanism, &s, &q, 0..self.rows.len())?;
             let is_of_motion =
                 decided.found.is_decided() && decided.found.redundancy == self.redundancy;
             let basis = |rows: &[usize]| Cow::Owned(decided.basis(rows));
@@ -383,7 +383,7 @@ impl OpenPart<'_> {
             (found.map_err(query)?, accuracy)
         };
         let is_of_motion = accuracy.is_some();
-        if known != Known::AsStored {
+        if known != ConfigurationAccuracy::AsStored {
             self.known = accuracy.or(self.known.take());
         }
         Ok(if is_of_motion {
@@ -404,7 +404,7 @@ impl OpenPart<'_> {
         &self,
         whole: &Mechanism,
         size: f64,
-        known: matrices::Known,
+        known: matrices::RowAccuracy,
         exponents: &[i32],
         sigma: f64,
     ) -> Accuracy {

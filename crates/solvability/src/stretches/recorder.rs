@@ -8,7 +8,7 @@ use crate::verdict::Verdict;
 
 /// What an instant is to the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Looked {
+pub enum InstantOrder {
     /// The next instant in the order of time.
     Next,
     /// An instant ahead, the next of several in the order of time: earlier ones may follow.
@@ -23,7 +23,7 @@ pub(super) type Verdicts = Vec<Option<Verdict>>;
 #[derive(Clone, Debug)]
 pub struct VerdictRecorder {
     times: Vec<f64>,
-    numbers: Vec<Seen>,
+    numbers: Vec<VerdictHistory>,
     cuts: Vec<f64>,
     /// Instants ahead, until all before them are known.
     ahead: VecDeque<(f64, Verdicts)>,
@@ -31,7 +31,7 @@ pub struct VerdictRecorder {
 
 /// The verdicts on one number, each with the first instant at which it was seen again.
 #[derive(Clone, Debug, Default)]
-struct Seen {
+struct VerdictHistory {
     changes: Vec<(usize, Option<Verdict>)>,
 }
 
@@ -41,7 +41,7 @@ impl VerdictRecorder {
     pub fn new(numbers: usize) -> Self {
         Self {
             times: Vec::new(),
-            numbers: vec![Seen::default(); numbers],
+            numbers: vec![VerdictHistory::default(); numbers],
             cuts: Vec::new(),
             ahead: VecDeque::new(),
         }
@@ -49,10 +49,10 @@ impl VerdictRecorder {
 
     /// Takes the verdicts at an instant, one for each number; `None` at an instant that says
     /// nothing of others. Of two at the same time the first counts.
-    pub fn see(&mut self, t: f64, looked: Looked, verdicts: Vec<Option<Verdict>>) {
+    pub fn see(&mut self, t: f64, looked: InstantOrder, verdicts: Vec<Option<Verdict>>) {
         match looked {
-            Looked::Ahead => self.ahead.push_back((t, verdicts)),
-            Looked::Next => {
+            InstantOrder::Ahead => self.ahead.push_back((t, verdicts)),
+            InstantOrder::Next => {
                 self.catch_up(t);
                 self.take(t, verdicts);
             }
@@ -120,7 +120,7 @@ impl VerdictRecorder {
         let times = &self.times;
         // Instants that belong to each stretch, and those of them inside.
         let last = ends.len() - 2;
-        let pieces: Vec<Piece> = (0..=last)
+        let pieces: Vec<RecordedStretch> = (0..=last)
             .map(|k| {
                 let [begin, end] = [ends[k], ends[k + 1]];
                 let first = times.partition_point(|t| *t < begin);
@@ -131,7 +131,7 @@ impl VerdictRecorder {
                 };
                 let inner = times.partition_point(|t| *t <= begin);
                 let inner_end = times.partition_point(|t| *t < end);
-                Piece {
+                RecordedStretch {
                     ends: [begin, end],
                     own: first..own.max(first),
                     inside: inner..inner_end.max(inner),
@@ -144,7 +144,7 @@ impl VerdictRecorder {
 }
 
 /// A stretch with its instants.
-struct Piece {
+struct RecordedStretch {
     ends: [f64; 2],
     /// All that belong to it.
     own: Range<usize>,
@@ -152,7 +152,7 @@ struct Piece {
     inside: Range<usize>,
 }
 
-impl Seen {
+impl VerdictHistory {
     /// The verdict at an instant.
     fn at(&self, index: usize) -> Option<&Verdict> {
         let begun = self.changes.partition_point(|(k, _)| *k <= index);
@@ -169,7 +169,7 @@ impl Seen {
         changes.filter_map(|(_, verdict)| verdict.as_ref())
     }
 
-    fn track(&self, times: &[f64], pieces: &[Piece]) -> VerdictTrack {
+    fn track(&self, times: &[f64], pieces: &[RecordedStretch]) -> VerdictTrack {
         let mut special = Vec::new();
         let mut stretches = Vec::with_capacity(pieces.len());
         for piece in pieces {
@@ -191,7 +191,7 @@ impl Seen {
     }
 
     /// The verdict on a stretch: that of its inside. A run of one instant has that of the instant.
-    fn verdict(&self, piece: &Piece) -> Verdict {
+    fn verdict(&self, piece: &RecordedStretch) -> Verdict {
         let [from, to] = piece.ends;
         let range = if from == to {
             &piece.own

@@ -17,7 +17,7 @@ fn track(extent: [f64; 2], cuts: &[f64], seen: &[(f64, Verdict)]) -> VerdictTrac
     let mut recorder = VerdictRecorder::new(1);
     cuts.iter().for_each(|&t| recorder.cut(t));
     for (t, verdict) in seen {
-        recorder.see(*t, Looked::Next, vec![Some(verdict.clone())]);
+        recorder.see(*t, InstantOrder::Next, vec![Some(verdict.clone())]);
     }
     recorder.finish(extent).remove(0)
 }
@@ -93,7 +93,7 @@ fn a_stretch_without_an_instant_is_undecided() {
     assert_eq!(words(&found), expected);
     // An instant at which the rank drops says nothing of others.
     let mut recorder = VerdictRecorder::new(1);
-    recorder.see(1.0, Looked::Next, vec![None]);
+    recorder.see(1.0, InstantOrder::Next, vec![None]);
     let found = recorder.finish([0.0, 2.0]).remove(0);
     assert_eq!(words(&found), [(0.0, 2.0, "undecided")]);
 }
@@ -111,13 +111,13 @@ fn a_run_of_one_instant_has_its_verdict() {
 fn instants_ahead_take_their_place_in_time() {
     let mut recorder = VerdictRecorder::new(1);
     let mut see = |t, looked, verdict: Verdict| recorder.see(t, looked, vec![Some(verdict)]);
-    see(0.0, Looked::Next, U);
-    see(0.5, Looked::Ahead, N);
-    see(1.0, Looked::Ahead, U);
-    see(0.7, Looked::Next, U);
+    see(0.0, InstantOrder::Next, U);
+    see(0.5, InstantOrder::Ahead, N);
+    see(1.0, InstantOrder::Ahead, U);
+    see(0.7, InstantOrder::Next, U);
     // The row at the end of the step is that end.
-    see(1.0, Looked::Next, N);
-    see(1.5, Looked::Ahead, U);
+    see(1.0, InstantOrder::Next, N);
+    see(1.5, InstantOrder::Ahead, U);
     let found = recorder.finish([0.0, 2.0]).remove(0);
     assert_eq!(words(&found), [(0.0, 2.0, "not_unique")]);
     assert_eq!(

@@ -3,13 +3,13 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{Method, MotionOptions, Prepared, simulate};
+use dynamics::{Method, MotionOptions, PreparedMechanism, simulate};
 
 use crate::problem::{Asked, End, Solved, array};
 
 /// A run with a method; Radau IIA on independent coordinates, the others on kept rows with
 /// projection.
-pub fn run<const N: usize>(method: Method, prepared: &Prepared, asked: &Asked<'_, N>) -> Solved<N> {
+pub fn run<const N: usize>(method: Method, prepared: &PreparedMechanism, asked: &Asked<'_, N>) -> Solved<N> {
     let options = MotionOptions {
         output_step: asked.t_end,
         rtol: asked.rtol,

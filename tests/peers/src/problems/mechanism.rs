@@ -3,7 +3,7 @@
 
 use std::cell::RefCell;
 
-use dynamics::{KeptRowMotion, MotionError, MotionFault, Prepared, RowChoice, prepare};
+use dynamics::{KeptRowMotion, MotionError, MotionFault, PreparedMechanism, RowChoice, prepare};
 use model::{Mechanism, Registry, System};
 use suite::{Case, Kind, Quantity};
 
@@ -35,7 +35,7 @@ pub enum CaseError {
 /// A mechanism ready to move.
 pub struct MovingCase {
     /// Mechanism, start and kept rows.
-    pub prepared: Prepared,
+    pub prepared: PreparedMechanism,
     /// Last time (s).
     pub t_end: f64,
     /// q and v at the end.
@@ -151,7 +151,7 @@ impl<'a> OnKeptRows<'a> {
     ///
     /// # Errors
     /// As [`KeptRowMotion::new`].
-    pub fn new(prepared: &'a Prepared) -> Result<Self, CaseError> {
+    pub fn new(prepared: &'a PreparedMechanism) -> Result<Self, CaseError> {
         let motion = KeptRowMotion::new(prepared)?;
         Ok(Self {
             motion: RefCell::new(motion),

@@ -49,9 +49,9 @@ fn it_is_evaluated_once_at_each_time_of_a_step() {
     // the end of the step.
     for (method, again) in [(Method::Dop853, 1), (Method::Dopri5, 1)] {
         let options = MotionOptions { method, ..to(3.0) };
-        let wanted = Wanted {
+        let wanted = OutputRequest {
             reactions: Reactions::None,
-            ..Wanted::default()
+            ..OutputRequest::default()
         };
         let plan = Plan::new(&p, &options, &wanted).expect("a plan");
         let mut summary = Summary::default();
@@ -60,7 +60,7 @@ fn it_is_evaluated_once_at_each_time_of_a_step() {
                 .simulate(|_| Ok(ControlFlow::Continue(())))
                 .expect("moves");
         };
-        let done = counted(run)(Counted::Accelerations) as u64;
+        let done = counted(run)(WorkKind::Accelerations) as u64;
         assert!(
             done + again * summary.steps <= summary.evaluations,
             "{method:?}: {done} of {} in {} steps",
@@ -80,7 +80,7 @@ fn it_is_where_its_drive_is_by_every_method() {
             atol: 1e-6,
             ..to(3.0)
         };
-        let plan = Plan::new(&p, &options, &Wanted::default()).expect("a plan");
+        let plan = Plan::new(&p, &options, &OutputRequest::default()).expect("a plan");
         let taken = plan.components[0].decisions.method.value;
         assert!(
             taken != Method::Radau5,

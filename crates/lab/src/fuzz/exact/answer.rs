@@ -4,7 +4,7 @@ use pfaff::model::Registry;
 use pfaff::rank::Limits;
 use pfaff::report::documents::DistributionDocument;
 use pfaff::report::documents::MakeUniqueDocument;
-use pfaff::solvability::{Allowed, Choice, NormWeights, Verdict};
+use pfaff::solvability::{Choice, DeletableRows, NormWeights, Verdict};
 use pfaff::{AssembledScene, ConfigurationAnalysis, RunOptions, StudyError};
 use serde_json::Value;
 
@@ -51,8 +51,8 @@ fn document(configuration: Result<ConfigurationAnalysis<'_>, StudyError>) -> Res
     document.answers.make_unique = open
         .take(ASKED)
         .map(|r| {
-            let found = configuration.make_unique(r.id, &Allowed::Sensible, LIMITS);
-            MakeUniqueDocument::new(&r.name, &Allowed::Sensible, found)
+            let found = configuration.make_unique(r.id, &DeletableRows::Sensible, LIMITS);
+            MakeUniqueDocument::new(&r.name, &DeletableRows::Sensible, found)
         })
         .collect();
     if configuration.analysis.decision.is_decided() {

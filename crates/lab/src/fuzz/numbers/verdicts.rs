@@ -4,7 +4,7 @@
 //! Between cuts of a run (events, breaks of functions of time) a component is `unique` if its
 //! verdict is at every state of the open interval, `not unique` if it is at one, else undecided.
 
-use model::{ConstraintId, Known, Mechanism};
+use model::{ConfigurationAccuracy, ConstraintId, Mechanism};
 use solvability::{Analysis, AnalysisError, Verdict, VerdictStretch, analyse_known};
 
 use super::forms::Form;
@@ -152,8 +152,8 @@ fn larger(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 /// The analysis of a state, known to the tolerance of the run that has reached it.
 fn analysis(mechanism: &Mechanism, row: &Row) -> Result<Analysis, AnalysisError> {
     let known = match row.t {
-        0.0 => Known::AsStored,
-        _ => Known::To(RTOL),
+        0.0 => ConfigurationAccuracy::AsStored,
+        _ => ConfigurationAccuracy::To(RTOL),
     };
     analyse_known(mechanism, row.t_before, &row.q, known)
 }

@@ -8,7 +8,7 @@ use pfaff::dynamics::{Misfit, Sample, Stabilisation};
 use pfaff::model::start::scene_size;
 use pfaff::model::{Mechanism, Scratch, System};
 use pfaff::report::{ReactionTable, Selection, TrajectoryTable, columns_of_reactions};
-use pfaff::solvability::Chosen;
+use pfaff::solvability::ChosenValues;
 
 use super::reach::{ROWS, Reach, STEPS, named};
 
@@ -44,7 +44,7 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
     let columns = columns.expect("all of them");
     let mut reactions = ReactionTable::new("choice.csv", Vec::new(), mechanism, columns)
         .expect("a vector takes everything");
-    let no_groups = Chosen::new(Vec::new(), Vec::new());
+    let no_groups = ChosenValues::new(Vec::new(), Vec::new());
     let mut checked = Rows {
         mechanism,
         scratch: mechanism.scratch(),

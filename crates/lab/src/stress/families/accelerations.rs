@@ -15,7 +15,7 @@ use crate::stress::motion::prepared;
 use exact::solve;
 use scenes::{Scene, scenes};
 use score::Errors;
-use solvability::Chosen;
+use solvability::ChosenValues;
 
 /// Masses from 1e-24 to 1e24 and lengths from 1e-12 to 1e12.
 pub(super) const FAMILY: Family = Family {
@@ -102,7 +102,7 @@ fn errors(description: &Description) -> Result<Errors, Outcome> {
     let mut motion = KeptRowMotion::new(&prepared).map_err(Outcome::refused)?;
     let layout = prepared.mechanism.layout();
     let mut a = vec![f64::NAN; layout.n_v];
-    let mut lambda = Chosen::new(vec![f64::NAN; layout.rows()], Vec::new());
+    let mut lambda = ChosenValues::new(vec![f64::NAN; layout.rows()], Vec::new());
     let (q, v) = (&prepared.q, &prepared.v);
     let solved = motion
         .acceleration(0.0, q, v, &mut a)
@@ -155,7 +155,7 @@ mod tests {
         heavier.bodies[1].mass *= 1.0 + 1e-11;
         let prepared_right = prepared(&scene.description).unwrap();
         let prepared_wrong = prepared(&heavier).unwrap();
-        let acceleration = |p: &dynamics::Prepared| {
+        let acceleration = |p: &dynamics::PreparedMechanism| {
             let mut a = vec![0.0; p.v.len()];
             KeptRowMotion::new(p)
                 .unwrap()

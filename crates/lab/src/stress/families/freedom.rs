@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{MotionOptions, Prepared, simulate};
+use dynamics::{MotionOptions, PreparedMechanism, simulate};
 
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{combinations, moving, study, worst};
@@ -66,7 +66,7 @@ motion = {{ type = "harmonic", amplitude = {SWING}, omega = {RATE:?}, phase = 0.
 }
 
 /// The errors of angles, rates and the sum of the motors' torques, for all rows.
-fn torque(prepared: &Prepared, options: &MotionOptions) -> Outcome {
+fn torque(prepared: &PreparedMechanism, options: &MotionOptions) -> Outcome {
     let mut errors = Vec::new();
     let result = simulate(prepared, options, |row| {
         let (sin, cos) = (RATE * row.t).sin_cos();

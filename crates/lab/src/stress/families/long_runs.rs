@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use dynamics::{Method, MotionOptions, Prepared};
+use dynamics::{Method, MotionOptions, PreparedMechanism};
 use model::SpatialDescription;
 
 use crate::mechanisms::space;
@@ -94,7 +94,7 @@ fn in_space() -> impl Iterator<Item = Case> {
 }
 
 /// The drift in a run, relative to the allowed one.
-fn drifted(prepared: &Prepared, options: &MotionOptions) -> Result<Outcome, Outcome> {
+fn drifted(prepared: &PreparedMechanism, options: &MotionOptions) -> Result<Outcome, Outcome> {
     let (row, s) = last_row(prepared, options)?;
     let [angle, omega] = swing(row.t);
     let phase = worst([row.q[2] - angle, row.v[2] - omega]);

@@ -4,7 +4,9 @@
 use joints::KnifeEdge;
 use joints::plane::Direction;
 use model::start::{Metric, assemble, nearest_configuration};
-use model::{Body, BodyRef, Description, Function, Joint, Known, StartOptions, System};
+use model::{
+    Body, BodyRef, ConfigurationAccuracy, Description, Function, Joint, StartOptions, System,
+};
 use rank::count_deletions;
 use solvability::{analyse_known, generic};
 
@@ -261,7 +263,8 @@ fn steered(displacement: f64) -> Result<Outcome, Outcome> {
         body[2] -= heading;
     }
     // Some thousand rounding errors in the computation.
-    let a = analyse_known(&mechanism, 1.0, &q, Known::To(1e-12)).map_err(Outcome::refused)?;
+    let a = analyse_known(&mechanism, 1.0, &q, ConfigurationAccuracy::To(1e-12))
+        .map_err(Outcome::refused)?;
     if let rank::RankStatus::Undecided(doubt) = &a.decision.status {
         return Err(Outcome::refused(doubt));
     }

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use joints::{Angle, Direction, Revolute, Translational, TranslationalDisplacementDrive};
 
-use super::{Counted, System};
+use super::{System, WorkKind};
 use crate::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism};
 
 thread_local! {
@@ -13,7 +13,7 @@ thread_local! {
 }
 
 /// Counts the work of one kind that `run` does.
-fn count(work: Counted, run: impl FnOnce()) -> usize {
+fn count(work: WorkKind, run: impl FnOnce()) -> usize {
     let now = || COUNTS.with_borrow(|counts| counts[work as usize]);
     let before = now();
     run();
@@ -70,10 +70,10 @@ fn angles_that_stay_have_their_sine_and_cosine_already() {
     let mut s = m.scratch();
     let mut q = [0.0; 9];
     (q[2], q[5], q[8]) = (0.3, 0.3, 0.1);
-    assert_eq!(count(Counted::Trigonometry, || m.pose(0.0, &q, &mut s)), 3);
+    assert_eq!(count(WorkKind::Trigonometry, || m.pose(0.0, &q, &mut s)), 3);
     let mut later = |s: &mut _, angle: f64| {
         (q[0], q[3], q[8]) = (0.5, 1.5, angle);
-        count(Counted::Trigonometry, || m.pose(0.1, &q, s))
+        count(WorkKind::Trigonometry, || m.pose(0.1, &q, s))
     };
     assert_eq!(later(&mut s, 0.2), 1, "only the bob has turned");
     assert_eq!(later(&mut s, 0.2), 0);
@@ -96,7 +96,7 @@ fn rounding_does_not_turn_what_is_held() {
     let mut q = [0.0; 9];
     // Each changes by one rounding: the angle of the slider is held, that of the bob is not.
     (q[2], q[8]) = (f64::EPSILON, f64::EPSILON);
-    assert_eq!(count(Counted::Trigonometry, || m.pose(0.0, &q, &mut s)), 1);
+    assert_eq!(count(WorkKind::Trigonometry, || m.pose(0.0, &q, &mut s)), 1);
     assert_eq!(
         [s.bodies.axes(0)[0][1], s.bodies.axes(2)[0][1]],
         [0.0, f64::EPSILON]
@@ -120,7 +120,7 @@ fn functions_are_evaluated_once_at_each_time() {
     let mut q = [0.0; 9];
     let mut at = |t: f64| {
         q[0] += 0.1;
-        count(Counted::Function, || m.pose(t, &q, &mut s))
+        count(WorkKind::Function, || m.pose(t, &q, &mut s))
     };
     assert_eq!(
         [at(0.0), at(0.0), at(0.5), at(0.5), at(0.0)],

@@ -7,7 +7,7 @@ use report::documents::{
     DistributionDocument, EliminationsDocument, MakeUniqueDocument, ValuesDocument,
 };
 use scene::in_si;
-use solvability::{Allowed, EliminationError, UnitError, Verdict};
+use solvability::{DeletableRows, EliminationError, UnitError, Verdict};
 
 use super::Analyze;
 use super::deletions::HINTS;
@@ -107,11 +107,15 @@ pub(super) fn hints(
     // One more than is listed, to know whether there are more.
     open.take(HINTS + 1)
         .map(
-            |r| match configuration.make_unique(r.id, &Allowed::Sensible, limits) {
+            |r| match configuration.make_unique(r.id, &DeletableRows::Sensible, limits) {
                 Err(EliminationError::Deletion(
                     e @ (DeletionError::TargetShape { .. } | DeletionError::NonFinite { .. }),
                 )) => Err(Refusal::stopped(e.to_string())),
-                found => Ok(MakeUniqueDocument::new(&r.name, &Allowed::Sensible, found)),
+                found => Ok(MakeUniqueDocument::new(
+                    &r.name,
+                    &DeletableRows::Sensible,
+                    found,
+                )),
             },
         )
         .collect()

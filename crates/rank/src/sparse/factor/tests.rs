@@ -23,7 +23,7 @@ const TOLERANCES: Tolerances = Tolerances {
     rest: 1e-12,
 };
 
-fn factors(c: &Matrix, wanted: Wanted) -> SparseQr {
+fn factors(c: &Matrix, wanted: KeptFactor) -> SparseQr {
     let blocks: Vec<_> = (0..c.ncols()).step_by(3).map(|j| j..j + 3).collect();
     let c = SparseMatrix::from_dense(c);
     Symbolic::new(&c, &blocks)
@@ -36,7 +36,7 @@ fn factors(c: &Matrix, wanted: Wanted) -> SparseQr {
 fn r_has_the_gram_matrix_of_c() {
     for bodies in [2, 3, 5, 9, 30] {
         let c = ring(bodies);
-        let qr = factors(&c, Wanted::R);
+        let qr = factors(&c, KeptFactor::R);
         let mut r = Matrix::zeros(qr.rank, c.ncols());
         for i in 0..qr.rank {
             for (j, value) in qr.r.entries(i) {
@@ -54,7 +54,7 @@ fn r_has_the_gram_matrix_of_c() {
 #[test]
 fn q_is_orthogonal_and_its_last_columns_annihilate_c() {
     let c = ring(7);
-    let qr = factors(&c, Wanted::Q);
+    let qr = factors(&c, KeptFactor::Q);
     let m = c.nrows();
     let columns: Vec<Vec<f64>> = (0..m)
         .map(|k| {
@@ -83,7 +83,7 @@ fn the_smallest_singular_value_is_bounded_from_below() {
         let all = ring(bodies);
         let rows: Vec<usize> = (0..all.nrows()).filter(|i| i % 4 != 3).collect();
         let c = all.select_rows(&rows);
-        let qr = factors(&c.transpose(), Wanted::R);
+        let qr = factors(&c.transpose(), KeptFactor::R);
         let sigma = singular_values(&c).last().copied().expect("rows");
         let bound = smallest_singular_value(&qr.r, c.nrows(), 3);
         assert!(bound <= sigma && bound > 0.2 * sigma, "{bound} {sigma}");
@@ -93,7 +93,7 @@ fn the_smallest_singular_value_is_bounded_from_below() {
 #[test]
 fn what_is_dropped_is_told() {
     let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [1.0, 3e-14, 0.0], [0.0, 0.0, 1.0]]);
-    let qr = factors(&c, Wanted::R);
+    let qr = factors(&c, KeptFactor::R);
     assert_eq!(qr.rank, 2);
     // The remaining norm of the small entry below the first row: 3e-14/√2.
     let expected = 3e-14 / 2f64.sqrt();

@@ -3,7 +3,7 @@
 use model::Layout;
 use serde::Serialize;
 use solvability::{
-    Along, Continuation, Difference, Passage, PassageKind, ReactionStretches, Stretch,
+    Continuation, Difference, MotionAnalysis, Passage, PassageKind, ReactionStretches, Stretch,
 };
 
 use crate::documents::{Named, SpecialDocument, TrackDocument};
@@ -140,7 +140,12 @@ impl AlongDocument {
     /// The document of a motion that was analysed up to a time with this number of samples at this
     /// distance; `stopped` and `continued_to` are left empty.
     #[must_use]
-    pub fn new(along: &Along, layout: &Layout, to: f64, (samples, reach): (usize, f64)) -> Self {
+    pub fn new(
+        along: &MotionAnalysis,
+        layout: &Layout,
+        to: f64,
+        (samples, reach): (usize, f64),
+    ) -> Self {
         let generic = &along.generic;
         let reaction = |found: &ReactionStretches| {
             let own = found.components.iter();

@@ -2,7 +2,7 @@
 //! unique.
 
 use serde::Serialize;
-use solvability::{Allowed, EliminationError, Proposals};
+use solvability::{DeletableRows, EliminationError, Proposals};
 
 use crate::documents::from_one;
 
@@ -81,15 +81,15 @@ impl MakeUniqueDocument {
     #[must_use]
     pub fn new(
         reaction: &str,
-        allowed: &Allowed,
+        allowed: &DeletableRows,
         found: Result<Proposals, EliminationError>,
     ) -> Self {
         let is_whole = found.as_ref().is_ok_and(|found| found.whole);
         let allowed = match allowed {
-            Allowed::Sensible if is_whole => "sensible, whole",
-            Allowed::Sensible => "sensible",
-            Allowed::Whole => "whole",
-            Allowed::Rows(_) => "rows",
+            DeletableRows::Sensible if is_whole => "sensible, whole",
+            DeletableRows::Sensible => "sensible",
+            DeletableRows::Whole => "whole",
+            DeletableRows::Rows(_) => "rows",
         };
         let (ways, complete, reason) = match found {
             Ok(found) => (found.ways, found.complete, None),

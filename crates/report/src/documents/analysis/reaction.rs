@@ -1,7 +1,7 @@
 //! The verdict on a joint or drive, with all requested results.
 
 use model::{ConstraintId, Frame, Layout, SpaceKind};
-use rank::Settled;
+use rank::StructureVerdict;
 use serde::Serialize;
 use solvability::{
     ComponentVerdict, Explanation, FrameVerdict, FreeDirection, GenericVerdict, GroupSensitivities,
@@ -288,9 +288,9 @@ impl ReactionDocument {
     pub(super) fn explain_all(all: &mut [Self], explanation: &Explanation) {
         for (ConstraintId(k), why) in &explanation.settled {
             all[*k].settled = match why {
-                Settled::Peeled => Some("peeled"),
-                Settled::Bridge => Some("bridge"),
-                Settled::Open(_) => None,
+                StructureVerdict::Peeled => Some("peeled"),
+                StructureVerdict::Bridge => Some("bridge"),
+                StructureVerdict::Open(_) => None,
             };
         }
         for told in &explanation.reactions {

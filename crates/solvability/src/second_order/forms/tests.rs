@@ -100,8 +100,8 @@ fn forms_are_of_a_motion_and_no_rounding() {
     assert_eq!(normalised(0.7e-6, 1.0), Ok(()));
     assert!(matches!(
         normalised(1.4e-6, 1.0),
-        Err(Undetermined::Irregular { .. })
+        Err(SecondOrderDoubt::Irregular { .. })
     ));
     assert_eq!(normalised(0.0, 0.7e10), Ok(()));
-    assert_eq!(normalised(0.0, 1.4e10), Err(Undetermined::NoTerms));
+    assert_eq!(normalised(0.0, 1.4e10), Err(SecondOrderDoubt::NoTerms));
 }

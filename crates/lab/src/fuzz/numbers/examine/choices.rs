@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use model::Known;
+use model::ConfigurationAccuracy;
 use nalgebra::DVector;
 use solvability::{Choice, Questions, analyse_known, solution};
 
@@ -24,9 +24,9 @@ impl Examined<'_> {
         let (row, instant, forms) = state;
         let solved = (row.t_before, &row.q[..], &row.v[..]);
         let known = if row.t == 0.0 {
-            Known::AsStored
+            ConfigurationAccuracy::AsStored
         } else {
-            Known::To(RTOL)
+            ConfigurationAccuracy::To(RTOL)
         };
         let Ok(analysis) = analyse_known(self.mechanism, row.t_before, &row.q, known) else {
             return;

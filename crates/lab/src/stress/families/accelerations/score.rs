@@ -1,6 +1,6 @@
 //! The error of a solution relative to the exact one.
 
-use dynamics::{KeptRowMotion, Prepared};
+use dynamics::{KeptRowMotion, PreparedMechanism};
 use model::System;
 
 use crate::stress::motion::worst;
@@ -23,7 +23,7 @@ pub(super) struct Errors {
 
 /// Computes all errors.
 pub(super) fn errors(
-    prepared: &Prepared,
+    prepared: &PreparedMechanism,
     motion: &KeptRowMotion<'_>,
     (a, lambda): (&[f64], &[f64]),
     exact: &Solution,
@@ -45,7 +45,7 @@ fn relative(x: f64, y: f64, size: f64) -> f64 {
 
 /// The size of the terms of accelerations, in units of the mechanism: Q/m, v²/L, or the
 /// accelerations themselves.
-fn rate(prepared: &Prepared, exact: &[f64]) -> f64 {
+fn rate(prepared: &PreparedMechanism, exact: &[f64]) -> f64 {
     let mechanism = &prepared.mechanism;
     let unit = |j: usize| mechanism.space().unit(j, prepared.assembly.size);
     let terms = (0..exact.len()).map(|j| {
@@ -61,7 +61,7 @@ fn rate(prepared: &Prepared, exact: &[f64]) -> f64 {
 
 /// The largest error of accelerations, each relative to its own size or to a fraction of the
 /// largest of its body and kind.
-pub(super) fn of_accelerations(prepared: &Prepared, a: &[f64], exact: &[f64]) -> f64 {
+pub(super) fn of_accelerations(prepared: &PreparedMechanism, a: &[f64], exact: &[f64]) -> f64 {
     let mechanism = &prepared.mechanism;
     let kind = |j: usize| {
         let body = mechanism.space().body_of(j);
@@ -79,7 +79,7 @@ pub(super) fn of_accelerations(prepared: &Prepared, a: &[f64], exact: &[f64]) ->
 }
 
 fn of_multipliers(
-    prepared: &Prepared,
+    prepared: &PreparedMechanism,
     motion: &KeptRowMotion<'_>,
     lambda: &[f64],
     exact: &[f64],
