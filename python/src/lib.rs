@@ -11,9 +11,7 @@
 //! | `options` | words and numbers from Python as options of the library |
 //! | `run` | the rows of a run as arrays |
 //! | `sweep` | many runs in shards, and their columns |
-//! | `comparison` | a scene by every method: error against run time |
 
-mod comparison;
 mod fault;
 mod functions;
 mod hearing;
@@ -33,9 +31,6 @@ mod _pfaff {
     use super::scene::{Scene, nearest};
     #[pymodule_export]
     use super::sweep::{Sweep, forget_crashed, merge, sweep_columns};
-
-    #[pymodule_export]
-    use super::comparison::work_precision;
 
     /// The version of the package.
     #[pymodule_export]

@@ -15,12 +15,14 @@ use pfaff::questions::Questions;
 use pfaff::refusal::{Refusal, json};
 use pfaff::report::documents::{EventDocument, part_as_json};
 use pfaff::report::{
-    Column as ReportColumn, FileError, Origin, OutputDirectory, ReactionColumn, Trajectory,
+    Column as ReportColumn, FileError, Origin, OutputDirectory, Provenance, ReactionColumn,
+    Trajectory,
 };
 use pfaff::scene::{KeyError, Template};
 use pfaff::solvability::Choice;
 use pfaff::start::{Judged, Start};
 use pfaff::study::EndedRun;
+use pfaff::work_precision::provenance::{date, machine};
 use pfaff::{AssembledScene, RunOptions as Overrides, Study, StudyError, source};
 use pyo3::prelude::*;
 
@@ -527,7 +529,7 @@ impl Scene {
             let place = OutputDirectory::create(&directory).and_then(OutputDirectory::exclusive);
             let place = place.map_err(|e| own.fault(e.into()))?;
             let origin = Origin {
-                command: "called from Python".to_owned(),
+                command: FROM_PYTHON.to_owned(),
                 ..Origin::default()
             };
             let stop = || hearing.ends();
@@ -621,8 +623,15 @@ impl Scene {
             let asked = Questions::read(&question, &options)?;
             let (tolerance, budget) = (common.tolerance(), common.budget()?);
             let starts: Vec<_> = all.iter().map(|own| own.start(tolerance, budget)).collect();
+            let provenance = Provenance {
+                machine: machine(),
+                versions: format!("pfaff {}", env!("CARGO_PKG_VERSION")),
+                date: date(),
+                command: FROM_PYTHON.to_owned(),
+            };
             let control = Control {
                 stop: &|| hearing.has_ended(),
+                provenance: &provenance,
                 wants_files: files || common.out.is_some(),
                 threads: common.threads()?,
                 ..Control::quiet()
@@ -640,6 +649,9 @@ impl Scene {
         })
     }
 }
+
+/// What is named as the command on pages.
+const FROM_PYTHON: &str = "called from Python";
 
 /// A file by its name.
 type NamedFile = (String, Vec<u8>);

@@ -47,13 +47,7 @@ fn refused(source: (&str, &str), error: SweepError) -> Fault {
         SweepError::Study(error) => return Refusal::of(source, error).into(),
         other => other,
     };
-    let (words, code) = (error.to_string(), error.code());
-    let refusal = if error.is_input() {
-        Refusal::input(words)
-    } else {
-        Refusal::stopped(words)
-    };
-    refusal.coded(code).into()
+    Refusal::from(error).into()
 }
 
 #[pymethods]

@@ -4,7 +4,6 @@ mod examples;
 mod known;
 mod values;
 
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
@@ -13,7 +12,6 @@ use clap_complete::Shell;
 use pfaff::command::named;
 use pfaff::import::Base;
 use pfaff::questions::Questions;
-use pfaff::sweep::{Axis, Shard};
 
 pub(crate) use known::{Known, Settings};
 use values::joint_value;
@@ -40,12 +38,6 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     #[command(flatten)]
     Ask(Asked),
-    /// Many runs with other numbers in the scene: parallel, resumable, in shards
-    #[command(after_help = examples::SWEEP)]
-    Sweep(Sweep),
-    /// Error versus run time, for every method and tolerance
-    #[command(after_help = examples::WORK_PRECISION)]
-    WorkPrecision(WorkPrecision),
     /// Create a scene from a template; without a name, list the templates
     #[command(after_help = examples::NEW)]
     New(New),
@@ -74,9 +66,7 @@ impl Command {
     pub(crate) fn answer(&self) -> Answer {
         let json = match self {
             Self::Ask(asked) => return asked.answer(),
-            Self::Sweep(Sweep { json, .. })
-            | Self::WorkPrecision(WorkPrecision { json, .. })
-            | Self::New(New { json, .. })
+            Self::New(New { json, .. })
             | Self::Import(Import { json, .. })
             | Self::View(View { json, .. })
             | Self::Explain(Explain { json, .. }) => *json,
@@ -84,70 +74,6 @@ impl Command {
         };
         if json { Answer::Json } else { Answer::Words }
     }
-}
-
-/// Where results are written.
-#[derive(Args)]
-pub(crate) struct Place {
-    /// Directory for the results
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: PathBuf,
-    /// Also replace files there that pfaff has not written
-    #[arg(long)]
-    pub(crate) force: bool,
-}
-
-#[derive(Args)]
-pub(crate) struct Sweep {
-    /// Scene file, or - for standard input
-    #[arg(required_unless_present = "merge", conflicts_with = "merge")]
-    pub(crate) scene: Option<PathBuf>,
-    /// A parameter or number of the scene and its values: KEY=FROM:TO:N, KEY=FROM:TO:N:log or
-    /// KEY=A,B,C; may be given several times
-    #[arg(long, value_name = "KEY=VALUES", required_unless_present = "merge")]
-    pub(crate) vary: Vec<Axis>,
-    #[command(flatten)]
-    pub(crate) place: Place,
-    /// The k-th of n parts of the runs only; shards may share a directory
-    #[arg(long, value_name = "K/N", default_value = "1/1")]
-    pub(crate) shard: Shard,
-    /// Number of runs at the same time; default: the number of cores
-    #[arg(long, value_name = "K")]
-    pub(crate) threads: Option<NonZeroUsize>,
-    #[command(flatten)]
-    pub(crate) settings: Settings,
-    /// Keep the trajectory of each run, in runs/NUMBER/trajectory.csv
-    #[arg(long)]
-    pub(crate) keep_rows: bool,
-    /// Instead of runs: write one table of the results in these directories
-    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["vary", "shard", "threads", "keep_rows"])]
-    pub(crate) merge: Vec<PathBuf>,
-    /// The summary as one JSON document on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Args)]
-pub(crate) struct WorkPrecision {
-    /// Scene files, or - for standard input
-    #[arg(required = true, value_name = "SCENE")]
-    pub(crate) scenes: Vec<PathBuf>,
-    #[command(flatten)]
-    pub(crate) place: Place,
-    /// Three tolerances, for a quick overview
-    #[arg(long, conflicts_with = "all")]
-    pub(crate) quick: bool,
-    /// Every method with every stabilisation
-    #[arg(long)]
-    pub(crate) all: bool,
-    /// Also write the figure as PNG
-    #[arg(long)]
-    pub(crate) png: bool,
-    #[command(flatten)]
-    pub(crate) settings: Settings,
-    /// All results as one JSON document on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
 }
 
 #[derive(Args)]

@@ -2,21 +2,21 @@
 //! the ways in which its answer is wanted. No question is known by name here.
 
 use std::ffi::OsStr;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand, ValueHint, value_parser};
-use pfaff::question::{self, AnyAnswer, Control, Ending, Output, Place};
+use pfaff::question::{self, AnyAnswer, Control, Ending, NOTHING_WRITTEN, Output, Place, Writing};
 use pfaff::questions::{Facts, Questions};
-use pfaff::report::documents::EndedDocument;
 use pfaff::report::{FileError, OutputDirectory};
 use pfaff::words;
 
 use crate::args::Known;
 use crate::console::Console;
 use crate::input::Source;
-use crate::interrupt::{BY_REQUEST, Interrupt, NOTHING_WRITTEN};
-use crate::output::{Answer, Failure, Files, Outcome, beside, directory, json};
+use crate::interrupt::Interrupt;
+use crate::output::{Answer, Failure, Files, Outcome, beside};
 use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::resources::Resources;
@@ -33,14 +33,15 @@ pub(crate) struct Asked {
 
 // The comments of these structs are not help texts: those of the questions are.
 
-#[derive(Args)]
-struct OutputOptions {
+/// Where the files of an answer go.
+#[derive(Args, Clone, Default)]
+pub struct OutputOptions {
     /// Directory for the files of the answer
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub out: Option<PathBuf>,
     /// Also replace files there that pfaff has not written
     #[arg(long, requires = "out")]
-    force: bool,
+    pub force: bool,
 }
 
 #[derive(Args)]
@@ -70,16 +71,16 @@ impl Subcommand for Asked {
                 let scenes = Arg::new(SCENES)
                     .help("Scene file, or - for standard input")
                     .value_names(facts.scenes)
-                    .num_args(facts.scenes.len())
+                    .num_args(facts.count.0..=facts.count.1)
                     .value_hint(ValueHint::FilePath)
                     .value_parser(value_parser!(PathBuf))
-                    .required(true);
+                    .required(facts.count.0 > 0);
                 let own = own.arg(scenes);
                 let own = match facts.output {
                     None => own,
                     Some(output) => OutputOptions::augment_args(own).mut_arg("out", |out| {
                         let help = format!("Directory for {}", output.contents);
-                        out.required(output.streams.is_some()).help(help)
+                        out.required(output.is_streamed()).help(help)
                     }),
                 };
                 CommonOptions::augment_args(own).about(about)
@@ -143,11 +144,63 @@ impl Asked {
         self.of.resources.apply(console);
         if self.of.watch {
             return watch::run(&self.scenes, console, || {
-                Ok(self.asked(console, Hears::Not)?.0)
+                Ok(self.asking(Hears::Not).answered(self.asked(console))?.0)
             });
         }
+        self.asking(Hears::Stops).run(console, self.asked(console))
+    }
+
+    fn asking(&self, hears: Hears) -> Asking<'_> {
+        let output = self.facts.output;
+        Asking {
+            output: output.zip(self.place.as_ref()),
+            is_json: self.of.json,
+            threads: self.of.resources.threads,
+            hears,
+        }
+    }
+
+    /// Reads the scenes and asks.
+    fn asked<'a>(&'a self, console: &'a Console<'_>) -> impl FnOnce(&Control<'_>) -> Asks + 'a {
+        move |control| {
+            let CommonOptions {
+                known, resources, ..
+            } = &self.of;
+            let read = |path: &PathBuf| -> Result<_, Failure> {
+                let source = Source::read(path, &known.settings, console)?.known(known);
+                Ok(source.start(*resources))
+            };
+            let scenes = self.scenes.iter().map(read);
+            let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
+            let scenes: Vec<_> = scenes.iter().collect();
+            Ok(self.question.as_question().ask(&scenes, control)?)
+        }
+    }
+}
+
+/// An answer, or why there is none.
+pub type Asks = Result<Box<dyn AnyAnswer>, Failure>;
+
+/// How an answer is wanted.
+pub struct Asking<'a> {
+    /// Its files and their place, if they are wanted.
+    pub output: Option<(Output, &'a OutputOptions)>,
+    /// Whether it is wanted as a document.
+    pub is_json: bool,
+    /// Number of threads.
+    pub threads: Option<NonZeroUsize>,
+    /// Whether requests to stop are for it.
+    pub hears: Hears,
+}
+
+impl Asking<'_> {
+    /// Asks, writes the files, and prints the answer.
+    ///
+    /// # Errors
+    /// There is no answer, or it is not whole.
+    pub fn run(&self, console: &Console<'_>, ask: impl FnOnce(&Control<'_>) -> Asks) -> Outcome {
         Interrupt::ends_at_once()?;
-        let (text, ending) = self.asked(console, Hears::Stops)?;
+        let (text, ending) = self.answered(ask)?;
         match ending {
             Ending::Complete => console.print(&text),
             Ending::Partial { .. } | Ending::Stopped => Err(console.incomplete(&text)),
@@ -155,26 +208,16 @@ impl Asked {
     }
 
     /// The answer as text, after its files are written.
-    fn asked(&self, console: &Console<'_>, hears: Hears) -> Result<(String, Ending), Failure> {
-        let CommonOptions {
-            known, resources, ..
-        } = &self.of;
-        let read = |path: &PathBuf| -> Result<_, Failure> {
-            let source = Source::read(path, &known.settings, console)?.known(known);
-            Ok(source.start(*resources))
-        };
-        let scenes = self
-            .scenes
-            .iter()
-            .map(read)
-            .collect::<Result<Vec<_>, _>>()?;
+    fn answered(
+        &self,
+        ask: impl FnOnce(&Control<'_>) -> Asks,
+    ) -> Result<(String, Ending), Failure> {
         // A place that is none is refused before anything is computed.
-        let place = self.place.as_ref().and_then(|place| {
-            let (path, output) = (place.out.as_ref()?, self.facts.output?);
-            Some(Directory::open(path, output, place.force))
+        let place = self.output.and_then(|(output, place)| {
+            Some(Directory::open(place.out.as_ref()?, output, place.force))
         });
         let place = place.transpose()?;
-        let interrupt = match (hears, &place) {
+        let interrupt = match (self.hears, &place) {
             (Hears::Not, _) => None,
             (Hears::Stops, Some(place)) => Some(Interrupt::listen_with(place.last_act())?),
             (Hears::Stops, None) => Some(Interrupt::listen_with(|| NOTHING_WRITTEN.to_owned())?),
@@ -183,25 +226,25 @@ impl Asked {
         let control = Control {
             stop: &|| interrupt.as_ref().is_some_and(Interrupt::is_asked),
             progress: &|progress| match (progress, &place) {
-                (question::Progress::Writing(scene), Some(place)) => place.begins(scene),
+                (question::Progress::Writing(what), Some(place)) => place.begins(what),
                 (progress, _) => shown.show(progress),
             },
-            wants_words: matches!(self.answer(), Answer::Words),
+            wants_words: !self.is_json,
             wants_files: place.is_some(),
             directory: place.as_ref().map(|place| &place.directory),
             provenance: &provenance(),
-            threads: resources.threads,
+            threads: self.threads,
         };
-        let scenes: Vec<_> = scenes.iter().collect();
-        let answer = self.question.as_question().ask(&scenes, &control)?;
+        let answer = ask(&control)?;
         drop(shown);
         let written = match &place {
             None => String::new(),
             Some(place) => place.write(answer.as_ref())?,
         };
-        let text = match self.answer() {
-            Answer::Json => answer.json()?,
-            Answer::Words => words::text(&answer.words()) + &written,
+        let text = if self.is_json {
+            answer.json()?
+        } else {
+            words::text(&answer.words()) + &written
         };
         Ok((text, answer.ending()))
     }
@@ -209,8 +252,10 @@ impl Asked {
 
 /// Whether requests to stop are for the answer.
 #[derive(Clone, Copy)]
-enum Hears {
+pub enum Hears {
+    /// The first one ends the work, and what is done is the answer.
     Stops,
+    /// They are for whoever asks again and again.
     Not,
 }
 
@@ -219,59 +264,53 @@ struct Directory {
     path: PathBuf,
     output: Output,
     directory: OutputDirectory,
-    /// The scene whose results are being written.
-    scene: Arc<Mutex<Option<String>>>,
+    /// What is being written.
+    begun: Arc<Mutex<Option<String>>>,
 }
 
 impl Directory {
     fn open(path: &Path, output: Output, force: bool) -> Result<Self, Failure> {
+        let is_shared = matches!(output.writing, Writing::Meanwhile { shared: true, .. });
+        let directory = OutputDirectory::create(path)?;
+        let directory = if is_shared {
+            directory
+        } else {
+            directory.exclusive()?
+        };
+        if !force {
+            directory.check_ours(output.family)?;
+        }
         Ok(Self {
             path: path.to_owned(),
             output,
-            directory: directory(path, output.family, force)?,
-            scene: Arc::default(),
+            directory,
+            begun: Arc::default(),
         })
     }
 
-    fn begins(&self, scene: String) {
-        *self.scene.lock().unwrap_or_else(PoisonError::into_inner) = Some(scene);
+    fn begins(&self, what: String) {
+        *self.begun.lock().unwrap_or_else(PoisonError::into_inner) = Some(what);
     }
 
-    /// What is done, and said, if the work has to be ended: its tables are kept, and a summary says
-    /// that they are partial.
+    /// What is done, and said, if the work has to be ended.
     fn last_act(&self) -> impl Fn() -> String + Send + Sync + use<> {
-        let (directory, scene) = (self.directory.clone(), Arc::clone(&self.scene));
-        let Output {
-            family, streams, ..
-        } = self.output;
-        move || {
-            let begun = scene.lock().unwrap_or_else(PoisonError::into_inner).clone();
-            let (Some(scene), Some(summary)) = (begun, streams) else {
-                return NOTHING_WRITTEN.to_owned();
-            };
-            let (error, kept) = ("interrupted", "kept: whole rows of the tables");
-            let document = json(&EndedDocument {
-                scene,
-                partial: true,
-                code: BY_REQUEST,
-                error,
-            });
-            let document = document.unwrap_or_default();
-            let place = directory.path().display();
-            if directory.abandon_as(summary, document.as_bytes(), family) {
-                format!("{error}; {kept} in `{place}`; {summary} says that they are partial")
-            } else {
-                format!("{error}; nothing was written into `{place}`")
+        let (directory, begun) = (self.directory.clone(), Arc::clone(&self.begun));
+        let writing = self.output.writing;
+        move || match writing {
+            Writing::AtEnd => NOTHING_WRITTEN.to_owned(),
+            Writing::Meanwhile { cut, .. } => {
+                let begun = begun.lock().unwrap_or_else(PoisonError::into_inner).clone();
+                cut(&directory, begun.as_deref())
             }
         }
     }
 
     /// Writes the files that are not written yet; says where they are.
     fn write(&self, answer: &dyn AnyAnswer) -> Result<String, Failure> {
-        let (path, family) = (self.path.display(), self.output.family);
-        if self.output.streams.is_some() {
+        let (path, family) = (self.path.display().to_string(), self.output.family);
+        if self.output.is_streamed() {
             let beside = beside(&self.directory, family);
-            return Ok(format!("written to {path}\n{beside}"));
+            return Ok(format!("{}\n{beside}", answer.written(&path)));
         }
         let mut files = NamedFiles {
             files: Files::of(&self.directory, family)?,

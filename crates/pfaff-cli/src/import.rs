@@ -4,15 +4,14 @@ use std::path::Path;
 
 use pfaff::import::{Axes, FixedLinks, Folder, ImportedScene, Omission, Options, Refusal};
 use pfaff::memory::of_import;
+use pfaff::question::Ending;
 use pfaff::report::documents::{ImportDocument, OmissionDocument};
 
 use crate::args::Import;
 use crate::console::Console;
 use crate::input::text_of;
 use crate::interrupt::Interrupt;
-use crate::output::{
-    self, Failure, Outcome, Shortfall, count, json_or, replaces, wrapped, write_file,
-};
+use crate::output::{self, Failure, Outcome, count, replaces, wrapped, write_file};
 
 pub(crate) fn run(arguments: &Import, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
@@ -34,22 +33,26 @@ pub(crate) fn run(arguments: &Import, console: &Console<'_>) -> Outcome {
     arguments.memory.allow(memory, "reading its scene")?;
     let file = arguments.out.display().to_string();
     let read = pfaff::scene::read(&file, &imported.scene, console.registry);
-    let shortfall = read.err().and_then(|list| {
+    let ending = read.err().and_then(|list| {
         let first = list.first()?;
         let (code, error) = (first.code, first.sentence());
-        Some(Shortfall { code, error })
+        Some(Ending::Partial { code, error })
     });
+    let ending = ending.unwrap_or(Ending::Complete);
     let scene = imported.scene.as_bytes();
     write_file(&arguments.out, scene, replaces(arguments.force))?;
-    let error = shortfall.as_ref().map(|shortfall| shortfall.error.as_str());
+    let error = match &ending {
+        Ending::Partial { error, .. } => Some(error.as_str()),
+        _ => None,
+    };
     let answer = if arguments.json {
-        json_or(shortfall.as_ref(), &document(&imported, &file, error))?
+        ending.json(&document(&imported, &file, error))?
     } else {
         words(&imported, &file, error)
     };
-    match shortfall {
-        None => console.print(&answer),
-        Some(_) => Err(console.incomplete(&answer)),
+    match ending {
+        Ending::Complete => console.print(&answer),
+        _ => Err(console.incomplete(&answer)),
     }
 }
 

@@ -59,6 +59,15 @@ impl<'r> Source<'r> {
     }
 }
 
+/// The scene of a file, or of standard input for `-`.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn start<'r>(path: &Path, console: &Console<'r>) -> Result<Start<'r>, Failure> {
+    let source = Source::read(path, &Settings::default(), console)?;
+    Ok(source.start(Resources::default()))
+}
+
 /// The name in messages and the text of a file, or of standard input for `-`.
 pub(crate) fn text_of(path: &Path) -> Result<(String, String), Failure> {
     if path.as_os_str() == "-" {

@@ -10,15 +10,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use pfaff::model::codes::Code;
+use pfaff::question::{INTERRUPTED as BY_REQUEST, NOTHING_WRITTEN};
 
 use crate::output::{Answer, Failure};
-
-/// Code of the message of a command that was interrupted.
-pub(crate) const BY_REQUEST: Code = Code::new(8);
-
-/// The message of a command without results to keep.
-pub(crate) const NOTHING_WRITTEN: &str = "interrupted; nothing was written";
 
 /// Exit code of a program that was interrupted.
 const INTERRUPTED: i32 = 1;

@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod args;
-mod ask;
+pub mod ask;
 pub mod console;
 mod explain;
 mod import;
@@ -14,11 +14,9 @@ mod picture;
 mod progress;
 pub mod provenance;
 mod resources;
-mod sweep;
 mod template;
 mod view;
 mod watch;
-pub mod work_precision;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -142,8 +140,6 @@ impl CommandLine for Arguments {
     fn run(&self, console: &Console<'_>) -> Outcome {
         match &self.command {
             Command::Ask(a) => a.run(console),
-            Command::Sweep(a) => sweep::run(a, console),
-            Command::WorkPrecision(a) => work_precision::run(a, console),
             Command::New(a) => new::run(a, console),
             Command::Import(a) => import::run(a, console),
             Command::View(a) => view::run(a, console),

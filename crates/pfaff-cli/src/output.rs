@@ -4,12 +4,13 @@ use std::ffi::{OsStr, OsString};
 use std::path::Path;
 
 use pfaff::model::codes::Code;
+use pfaff::question::{INTERRUPTED, NOTHING_WRITTEN};
 use pfaff::refusal;
 use pfaff::report::documents::RefusalDocument;
 use pfaff::report::{Family, FileError, OutputDirectory, OutputFile, Replaces};
 use serde::Serialize;
 
-use crate::interrupt::{BY_REQUEST, Interrupt, NOTHING_WRITTEN};
+use crate::interrupt::Interrupt;
 
 pub use pfaff::refusal::{Refusal, visible};
 pub use pfaff::words::{columns, count, wrapped};
@@ -114,20 +115,6 @@ impl Failure {
     }
 }
 
-/// A directory for the results of one command, which are of this family: other processes are
-/// excluded from it. Files of the family that pfaff has not written are replaced only with `force`.
-///
-/// # Errors
-/// If it is not a place for results.
-pub fn directory(path: &Path, family: Family, force: bool) -> Result<OutputDirectory, Failure> {
-    let opened = OutputDirectory::create(path).and_then(OutputDirectory::exclusive);
-    let directory = opened?;
-    if !force {
-        directory.check_ours(family)?;
-    }
-    Ok(directory)
-}
-
 /// The files of an answer, which get their names together. A request to stop before leaves none.
 pub(crate) struct Files {
     directory: OutputDirectory,
@@ -164,7 +151,7 @@ impl Files {
     /// commands have left there, in words.
     pub(crate) fn finish(self) -> Result<String, Failure> {
         if self.interrupt.is_asked() {
-            return Err(Failure::stopped(NOTHING_WRITTEN.to_owned()).coded(BY_REQUEST));
+            return Err(Failure::stopped(NOTHING_WRITTEN.to_owned()).coded(INTERRUPTED));
         }
         let finished = self.directory.finish(self.family, self.files);
         finished?;
@@ -215,48 +202,4 @@ pub(crate) fn beside(directory: &OutputDirectory, family: Family) -> String {
 /// If it cannot be written.
 pub fn json(document: &impl Serialize) -> Result<String, Failure> {
     Ok(refusal::json(document)?)
-}
-
-/// Why results are not whole.
-pub(crate) struct Shortfall {
-    pub(crate) code: Code,
-    pub(crate) error: String,
-}
-
-impl Shortfall {
-    /// A request to stop, and what there is.
-    pub(crate) fn interrupted(error: String) -> Self {
-        let code = BY_REQUEST;
-        Self { code, error }
-    }
-
-    /// The document of such results, with `code` and `error` before its own entries.
-    ///
-    /// # Errors
-    /// As [`json`].
-    pub(crate) fn json(&self, document: &impl Serialize) -> Result<String, Failure> {
-        #[derive(Serialize)]
-        struct Incomplete<'d, D> {
-            code: Code,
-            error: &'d str,
-            #[serde(flatten)]
-            document: &'d D,
-        }
-        json(&Incomplete {
-            code: self.code,
-            error: &self.error,
-            document,
-        })
-    }
-}
-
-/// A document as text, with the reason if it is not whole.
-pub(crate) fn json_or(
-    shortfall: Option<&Shortfall>,
-    document: &impl Serialize,
-) -> Result<String, Failure> {
-    match shortfall {
-        Some(shortfall) => shortfall.json(document),
-        None => json(document),
-    }
 }

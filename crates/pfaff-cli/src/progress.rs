@@ -39,17 +39,23 @@ impl Progress {
             }
             question::Progress::Count(what, done, of) => {
                 let style = "{bar:40} {pos}/{len} {msg}, {per_sec}, {eta} left";
-                let bar = self.bar(&mut lines, what, style, of as u64);
+                let bar = self.bar(&mut lines, what, style, (done as u64, of as u64));
                 bar.set_message(what);
                 bar.set_position(done as u64);
                 if done == of {
                     lines.retain(|line| line.what != what);
                 }
             }
+            question::Progress::Runs(done, of, note) => {
+                let style = "{bar:40} {pos}/{len} runs, {per_sec}, {eta} left{msg}";
+                let bar = self.bar(&mut lines, "runs", style, (done, of));
+                bar.set_position(done);
+                bar.set_message(note);
+            }
             question::Progress::Writing(_) => {}
             question::Progress::Motion(what, t, t_end) => {
                 let style = "{bar:40} {msg}, {eta} left";
-                let bar = self.bar(&mut lines, what, style, TICKS as u64);
+                let bar = self.bar(&mut lines, what, style, (0, TICKS as u64));
                 if !bar.is_hidden() {
                     bar.set_position((t / t_end * TICKS) as u64);
                     bar.set_message(format!("{what}: t = {t:.3} s"));
@@ -64,7 +70,7 @@ impl Progress {
         lines: &'l mut Vec<Line>,
         what: &'static str,
         style: &str,
-        of: u64,
+        (done, of): (u64, u64),
     ) -> &'l ProgressBar {
         let known = lines.iter().position(|line| line.what == what);
         let place = known.unwrap_or_else(|| {
@@ -72,6 +78,9 @@ impl Progress {
             if let Ok(style) = ProgressStyle::with_template(style) {
                 bar.set_style(style);
             }
+            // What was done before says nothing of the speed.
+            bar.set_position(done);
+            bar.reset_eta();
             lines.push(Line { what, bar });
             lines.len() - 1
         });

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::refusal::{Refusal, json};
 use crate::start::Start;
-use crate::words::Block;
+use crate::words::{Block, count};
 
 /// A question; its fields are the options. Their comments are the help of the command, too.
 pub trait Question: for<'d> Deserialize<'d> + Default {
@@ -39,8 +39,10 @@ pub trait Question: for<'d> Deserialize<'d> + Default {
 
 /// What a question is asked about: one scene or several.
 pub trait Subject<'s>: Sized {
-    /// Names of the scenes in help texts.
+    /// Names of the scenes in help texts; the last one may stand for several.
     const SCENES: &'static [&'static str];
+    /// The least and the greatest number of them.
+    const COUNT: (usize, usize) = (Self::SCENES.len(), Self::SCENES.len());
 
     /// The subject that consists of these scenes; `None` if it has another number of them.
     fn of(scenes: &[&'s Start<'s>]) -> Option<Self>;
@@ -63,6 +65,28 @@ impl<'s> Subject<'s> for [&'s Start<'s>; 2] {
     }
 }
 
+impl<'s> Subject<'s> for Option<&'s Start<'s>> {
+    const SCENES: &'static [&'static str] = &["SCENE"];
+    const COUNT: (usize, usize) = (0, 1);
+
+    fn of(scenes: &[&'s Start<'s>]) -> Option<Self> {
+        match scenes {
+            [] => Some(None),
+            [scene] => Some(Some(scene)),
+            _ => None,
+        }
+    }
+}
+
+impl<'s> Subject<'s> for Vec<&'s Start<'s>> {
+    const SCENES: &'static [&'static str] = &["SCENE"];
+    const COUNT: (usize, usize) = (1, usize::MAX);
+
+    fn of(scenes: &[&'s Start<'s>]) -> Option<Self> {
+        (!scenes.is_empty()).then(|| scenes.to_vec())
+    }
+}
+
 /// An answer. It owns all that its words and files need, so that it can leave the thread and the
 /// scene. As a document its fields are the keys, in their order.
 pub trait Answer: Serialize + Send + 'static {
@@ -80,6 +104,11 @@ pub trait Answer: Serialize + Send + 'static {
     /// If one of them cannot be written.
     fn files(&self, _place: &mut dyn Place) -> Result<(), Refusal> {
         Ok(())
+    }
+
+    /// Where files are that were written while it was computed.
+    fn written(&self, place: &str) -> String {
+        format!("written to {place}")
     }
 }
 
@@ -99,12 +128,40 @@ pub enum Ending {
     Stopped,
 }
 
+/// Code of what was ended by a request.
+pub const INTERRUPTED: Code = Code::new(8);
+
+/// What is said where a request has ended what has no results yet.
+pub const NOTHING_WRITTEN: &str = "interrupted; nothing was written";
+
 impl Ending {
     /// A part, since a stop was requested.
     #[must_use]
     pub fn interrupted(error: String) -> Self {
-        let code = const { Code::new(8) };
+        let code = INTERRUPTED;
         Self::Partial { code, error }
+    }
+
+    /// A document as text; `code` and `error` come first in one that is not whole.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn json(&self, document: &impl Serialize) -> Result<String, Refusal> {
+        #[derive(Serialize)]
+        struct Partial<'d, D> {
+            code: Code,
+            error: &'d str,
+            #[serde(flatten)]
+            document: &'d D,
+        }
+        match self {
+            Self::Complete | Self::Stopped => json(document),
+            Self::Partial { code, error } => json(&Partial {
+                code: *code,
+                error,
+                document,
+            }),
+        }
     }
 }
 
@@ -115,9 +172,31 @@ pub struct Output {
     pub family: Family,
     /// What they contain, after "Directory for".
     pub contents: &'static str,
-    /// Of files that are written while the answer is computed: the one that says whether the others
-    /// are whole. Then a directory has to be given.
-    pub streams: Option<&'static str>,
+    /// When they are written.
+    pub writing: Writing,
+}
+
+impl Output {
+    /// Whether files are written while the answer is computed: then a directory has to be given.
+    #[must_use]
+    pub fn is_streamed(&self) -> bool {
+        matches!(self.writing, Writing::Meanwhile { .. })
+    }
+}
+
+/// When the files of an answer are written.
+#[derive(Clone, Copy, Debug)]
+pub enum Writing {
+    /// Together, once the answer is there.
+    AtEnd,
+    /// While the answer is computed.
+    Meanwhile {
+        /// Whether several processes write into the directory at the same time.
+        shared: bool,
+        /// What is done if the process has to end at once; returns what was kept, in words. It is
+        /// called with the name that was announced by [`Progress::Writing`].
+        cut: fn(&OutputDirectory, Option<&str>) -> String,
+    },
 }
 
 /// Where the files of an answer are put: a directory, or memory.
@@ -182,6 +261,8 @@ pub enum Progress {
     Stage(&'static str, usize),
     /// What is counted, how much of it is done, and all of it.
     Count(&'static str, usize, usize),
+    /// Runs that are done, all of them, and what else there is to say.
+    Runs(u64, u64, String),
     /// What is done along a motion, the time that it has reached, and the last time (s).
     Motion(&'static str, f64, f64),
     /// Results of the scene with this name are written from now on.
@@ -208,10 +289,10 @@ impl<Q: Question> AnyQuestion for Q {
         control: &Control<'_>,
     ) -> Result<Box<dyn AnyAnswer>, Refusal> {
         let n = scenes.len();
-        let names = Q::Subject::SCENES;
         let subject = Q::Subject::of(scenes).ok_or_else(|| {
-            let (name, expected) = (Q::NAME, names.len());
-            Refusal::input(format!("`{name}` asks about {expected} scene(s), not {n}"))
+            let (name, (least, _)) = (Q::NAME, Q::Subject::COUNT);
+            let expected = count(least, "scene", "scenes");
+            Refusal::input(format!("`{name}` asks about {expected}, not {n}"))
         })?;
         Ok(Box::new(self.answer(subject, control)?))
     }
@@ -236,6 +317,9 @@ pub trait AnyAnswer: Send {
     /// # Errors
     /// If one of them cannot be written.
     fn files(&self, place: &mut dyn Place) -> Result<(), Refusal>;
+
+    /// As [`Answer::written`].
+    fn written(&self, place: &str) -> String;
 }
 
 impl<A: Answer> AnyAnswer for A {
@@ -248,24 +332,14 @@ impl<A: Answer> AnyAnswer for A {
     }
 
     fn json(&self) -> Result<String, Refusal> {
-        #[derive(Serialize)]
-        struct Partial<'d, D> {
-            code: Code,
-            error: &'d str,
-            #[serde(flatten)]
-            document: &'d D,
-        }
-        match Answer::ending(self) {
-            Ending::Complete | Ending::Stopped => json(self),
-            Ending::Partial { code, error } => json(&Partial {
-                code,
-                error: &error,
-                document: self,
-            }),
-        }
+        Answer::ending(self).json(self)
     }
 
     fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {
         Answer::files(self, place)
+    }
+
+    fn written(&self, place: &str) -> String {
+        Answer::written(self, place)
     }
 }

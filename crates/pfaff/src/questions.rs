@@ -7,7 +7,9 @@ pub mod equilibrium;
 pub mod linearise;
 pub mod plan;
 pub mod simulate;
+pub mod sweep;
 pub mod tolerance;
+pub mod work_precision;
 
 use report::read_json;
 use scene::nearest;
@@ -20,7 +22,9 @@ pub use equilibrium::Equilibrium;
 pub use linearise::Linearise;
 pub use plan::Plan;
 pub use simulate::Simulate;
+pub use sweep::Sweep;
 pub use tolerance::Tolerance;
+pub use work_precision::WorkPrecision;
 
 use crate::question::{AnyQuestion, Output, Question, Subject};
 use crate::refusal::Refusal;
@@ -36,6 +40,8 @@ pub struct Facts {
     pub output: Option<Output>,
     /// Names of the scenes that it is asked about.
     pub scenes: &'static [&'static str],
+    /// The least and the greatest number of them.
+    pub count: (usize, usize),
 }
 
 impl Facts {
@@ -45,6 +51,7 @@ impl Facts {
             schema: Q::SCHEMA,
             output: Q::OUTPUT,
             scenes: <Q::Subject<'static> as Subject>::SCENES,
+            count: <Q::Subject<'static> as Subject>::COUNT,
         }
     }
 }
@@ -101,7 +108,9 @@ questions!(
     Equilibrium,
     Linearise,
     Tolerance,
-    Diff
+    Diff,
+    Sweep,
+    WorkPrecision
 );
 
 impl Questions {

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 use model::codes::Code;
 use report::documents::RefusalDocument;
-use report::{FileError, TableError, write_json};
+use report::{FileError, PngError, TableError, write_json};
 use scene::Diagnostic;
 use serde::Serialize;
 
@@ -164,6 +164,15 @@ impl From<FileError> for Refusal {
 impl From<TableError> for Refusal {
     fn from(error: TableError) -> Self {
         Self::stopped(error.to_string()).coded(error.code())
+    }
+}
+
+impl From<PngError> for Refusal {
+    fn from(error: PngError) -> Self {
+        match error {
+            PngError::Figure { .. } | PngError::Packing { .. } => Self::stopped(error.to_string()),
+            _ => Self::input(error.to_string()),
+        }
     }
 }
 

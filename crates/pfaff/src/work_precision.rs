@@ -31,7 +31,7 @@ use standard::{Standard, unique_reactions};
 
 pub use observation::{Kind, Observation};
 pub use overview::overview;
-pub use plan::{Curve, Plan};
+pub use plan::{ComparisonPlan, Curve};
 pub use rival::{Rival, RivalFault, RivalRun};
 pub use standard::{Errors, Expected, Reference};
 
@@ -146,7 +146,7 @@ impl Subject {
     /// errors of `row`.
     pub fn compare<E: From<StudyError>>(
         &self,
-        plan: &Plan,
+        plan: &ComparisonPlan,
         rivals: &[&dyn Rival],
         interrupted: &(impl Fn() -> bool + Sync),
         mut row: impl FnMut(&WorkPrecisionRow) -> Result<(), E>,
@@ -195,8 +195,12 @@ impl Subject {
     }
 
     /// The method that is chosen automatically, found by a run with the loosest tolerance.
-    fn automatic(&self, plan: &Plan, interrupted: &(impl Fn() -> bool + Sync)) -> &'static str {
-        let curve = Plan::usual(Method::Auto);
+    fn automatic(
+        &self,
+        plan: &ComparisonPlan,
+        interrupted: &(impl Fn() -> bool + Sync),
+    ) -> &'static str {
+        let curve = ComparisonPlan::usual(Method::Auto);
         let tolerance = plan.tolerances.first().copied().unwrap_or(self.base.rtol);
         let options = options(&self.base, curve, tolerance);
         let run = look(&self.study, &options, &self.times, plan.budget, interrupted);
@@ -208,7 +212,7 @@ impl Subject {
         &self,
         curve: Curve,
         empty: WorkPrecisionRow,
-        plan: &Plan,
+        plan: &ComparisonPlan,
         standard: Option<&Standard>,
         interrupted: &(impl Fn() -> bool + Sync),
     ) -> Option<WorkPrecisionRow> {
@@ -277,7 +281,7 @@ impl Subject {
     /// different methods that agree.
     fn standard(
         &self,
-        plan: &Plan,
+        plan: &ComparisonPlan,
         interrupted: &(impl Fn() -> bool + Sync),
     ) -> Result<(Option<Standard>, ReferenceDocument), StudyError> {
         let known = self.reference();
@@ -309,11 +313,11 @@ impl Subject {
     /// The pair of runs that agree best, of the most accurate runs of different methods.
     fn best_pair(
         &self,
-        plan: &Plan,
+        plan: &ComparisonPlan,
         interrupted: &(impl Fn() -> bool + Sync),
     ) -> Result<Option<Pair>, StudyError> {
         let accurate = |&method: &Method| {
-            let curve = Plan::usual(method);
+            let curve = ComparisonPlan::usual(method);
             for tolerance in TIGHTEST {
                 let options = options(&self.base, curve, tolerance);
                 let run = look(&self.study, &options, &self.times, plan.budget, interrupted);

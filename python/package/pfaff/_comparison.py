@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import json
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._errors import unknown
+
+if TYPE_CHECKING:
+    from ._answer import Answer
 
 Array = NDArray[np.float64]
 
@@ -31,8 +33,8 @@ class Curve(NamedTuple):
 class WorkPrecision:
     """One scene by every method at many tolerances."""
 
-    def __init__(self, document: str) -> None:
-        self.document: dict[str, Any] = json.loads(document)
+    def __init__(self, answer: Answer) -> None:
+        self.document = answer.document
         """The document of ``pfaff work-precision --json``."""
         (self._scene,) = self.document["scenes"]
         rows: list[dict[str, Any]] = [_flat(row) for row in self._scene["rows"]]

@@ -11,6 +11,7 @@ from ._answer import Answer, Common
 from ._analysis import Analysis
 from ._linearisation import Linearisation
 from ._samples import Samples
+from ._comparison import WorkPrecision
 
 
 class Questions:
@@ -262,3 +263,32 @@ class Questions:
         common = Common(tolerance, angle_tolerance, threads, max_memory)
         answer = self._asked("diff", options, common, [other])
         return answer.document
+
+    def work_precision(
+        self,
+        quick: bool = False,
+        *,
+        all: bool = False,
+        png: bool = False,
+        tolerance: float | None = None,
+        angle_tolerance: float | None = None,
+        threads: int | None = None,
+        max_memory: int | str | None = None,
+        out: str | os.PathLike[str] | None = None,
+    ) -> WorkPrecision:
+        """Error versus run time, for every method and tolerance.
+
+        As ``pfaff work-precision --json``.
+
+        - ``quick``: Three tolerances, for a quick overview
+        - ``all``: Every method with every stabilisation
+        - ``png``: Also the figure as PNG (feature ``png``)
+        """
+        options: dict[str, Any] = {
+            "quick": arguments.flag("quick", quick),
+            "all": arguments.flag("all", all),
+            "png": arguments.flag("png", png),
+        }
+        common = Common(tolerance, angle_tolerance, threads, max_memory, out)
+        answer = self._asked("work-precision", options, common)
+        return WorkPrecision(answer)

@@ -15,7 +15,6 @@ from . import _pfaff
 from . import _toml as toml
 from ._answer import Answer, Common
 from ._choices import Choice, dropped, of_run
-from ._comparison import WorkPrecision
 from ._errors import wrong, wrong_type
 from ._functions import BodyForce, DriveLaw, of_bodies, of_drives
 from ._questions import Questions
@@ -401,17 +400,6 @@ class Scene(Questions):
         words = json.dumps(options)
         document, made = self._of.ask(question, words, about, common.checked(), files)
         return Answer(self, options, common, json.loads(document), dict(made))
-
-    def work_precision(self, *, quick: bool = False, all: bool = False) -> WorkPrecision:
-        """Runs by every method at many tolerances, as ``pfaff work-precision``.
-
-        ``quick`` are three tolerances in place of eleven, ``all`` every method with every
-        treatment of drift. Each run is timed several times, one after the other.
-        """
-        quick, all = arguments.flag("quick", quick), arguments.flag("all", all)
-        if quick and all:
-            raise wrong("either `quick` or `all`, not both")
-        return WorkPrecision(_pfaff.work_precision(self._of, quick, all))
 
     def _repr_html_(self) -> str:
         return self.analyze()._repr_html_()

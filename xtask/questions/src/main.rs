@@ -55,7 +55,7 @@ fn questions() -> Vec<Question> {
                 .collect(),
             scenes: facts.scenes,
             files: facts.output.map(|output| output.contents),
-            streams: facts.output.is_some_and(|output| output.streams.is_some()),
+            streams: facts.output.is_some_and(|output| output.is_streamed()),
             answer: schema.answer.to_value(),
         }
     });

@@ -3,11 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use pfaff::RunOptions;
+use pfaff::question::{Control, Question};
 use pfaff::work_precision::{Rival, Subject};
+use pfaff_cli::ask::{Asking, Hears, OutputOptions};
 use pfaff_cli::console::Console;
-use pfaff_cli::input::unknown;
+use pfaff_cli::input::{start, unknown};
 use pfaff_cli::output::{Failure, Outcome};
-use pfaff_cli::work_precision::{Request, plan, subject};
 
 use crate::comparators::Comparator;
 use crate::work_precision::{of_case, ways};
@@ -37,16 +39,24 @@ pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     let subjects = subjects(arguments, console)?;
     let ways: Vec<Comparator> = if arguments.own { Vec::new() } else { ways() };
     let rivals: Vec<&dyn Rival> = ways.iter().map(|way| way as &dyn Rival).collect();
-    Request {
-        subjects: &subjects,
-        rivals: &rivals,
-        plan: plan(arguments.quick, arguments.all),
-        out: &arguments.out,
-        force: true,
+    let question = pfaff::questions::WorkPrecision {
+        quick: arguments.quick,
+        all: arguments.all,
         png: false,
-        json: arguments.json,
-    }
-    .run(console)
+    };
+    let place = OutputOptions {
+        out: Some(arguments.out.clone()),
+        force: true,
+    };
+    let asking = Asking {
+        output: pfaff::questions::WorkPrecision::OUTPUT.map(|output| (output, &place)),
+        is_json: arguments.json,
+        threads: None,
+        hears: Hears::Stops,
+    };
+    asking.run(console, |control| {
+        Ok(Box::new(question.compared(&subjects, &rivals, control)?))
+    })
 }
 
 /// The requested scenes, or those of the suite. All are read before the first is run.
@@ -64,7 +74,11 @@ fn subjects(arguments: &WorkPrecision, console: &Console<'_>) -> Result<Vec<Subj
                 let names: Vec<&str> = suite::all().map(|case| case.name).collect();
                 Err(unknown("file or case", &path.display().to_string(), &names))
             }
-            None => subject(path, console),
+            None => {
+                let scene = start(path, console)?;
+                let study = scene.prepared(&RunOptions::default(), &Control::quiet())?;
+                Ok(Subject::of_study(study).map_err(|e| scene.refusal(e))?)
+            }
         }
     });
     scenes.collect()

@@ -5,7 +5,7 @@ use std::time::Duration;
 use lab::comparators::{Fault, run_within};
 use lab::work_precision::{of_case, ways};
 use pfaff::StudyError;
-use pfaff::work_precision::{Plan, Rival};
+use pfaff::work_precision::{ComparisonPlan, Rival};
 
 use super::{Folder, lab, stderr, stdout};
 
@@ -20,12 +20,12 @@ fn cases_are_compared_by_every_way() {
 
 fn compare(name: &str) {
     let subject = of_case(suite::find(name).expect("a case")).expect("builds");
-    let plan = Plan {
+    let plan = ComparisonPlan {
         tolerances: vec![1e-5, 1e-8],
         repetitions: 1,
         seconds: 0.0,
         budget: 10.0,
-        ..Plan::standard()
+        ..ComparisonPlan::standard()
     };
     let ways = ways();
     let rivals: Vec<&dyn Rival> = ways.iter().map(|way| way as &dyn Rival).collect();

@@ -1,21 +1,5 @@
 //! Examples at the end of `--help`.
 
-pub(super) const SWEEP: &str = "Examples:
-  pfaff sweep robot.toml --vary body.platform.mass=10:40:31 --out masses
-  pfaff sweep robot.toml --vary drive.steering.motion.steps[0].by=0.01,0.02 --vary simulate.rtol=1e-4:1e-10:7:log --out grid
-  pfaff sweep robot.toml --vary body.platform.mass=10:40:31 --out masses --shard 2/3    the second third of the runs, for one of three machines
-  pfaff sweep --merge masses-1 masses-2 masses-3 --out masses                          one table of all
-
-The same command again goes on where the last one was interrupted. Several --vary are a full grid; the last one runs fastest. Things go by their names or by
-[0], [1], ...; a key that the scene leaves out is added to it. Exit code 1 if a run is not done; it has a row all the same.";
-
-pub(super) const WORK_PRECISION: &str = "Examples:
-  pfaff work-precision mine.toml --out wp            two methods that agree are the reference
-  pfaff work-precision mine.toml --out wp --quick    three tolerances, for a first look
-  pfaff work-precision mine.toml --out wp --png      the figure as PNG, too
-
-Build with --release, and keep the machine idle: seconds are compared.";
-
 pub(super) const SCHEMA: &str = "Examples:
   pfaff schema > pfaff.schema.json
   pfaff schema analyze                          keys of the document of `pfaff analyze --json`

@@ -616,3 +616,44 @@ fn wrong_keys_and_changed_sweeps_have_code_2() {
         assert_eq!(pfaff(&arguments).status.code(), Some(2), "{arguments:?}");
     }
 }
+
+#[test]
+fn runs_are_read_within_the_tolerance_of_the_command() {
+    // A second pivot is 10 µm beside the first one: with exact numbers the bar cannot turn.
+    let bar = r#"
+scene = { name = "bar", space = "plane", gravity = [0.0, -9.81] }
+body = [{ name = "bar", mass = 1.0, inertia = 1.0, position = [1.0, 0.0] }]
+joint = [
+    { name = "pivot", type = "revolute", bodies = ["ground", "bar"], at = [0.0, 0.0] },
+    { name = "twin", type = "revolute", bodies = ["ground", "bar"], at = [1e-5, 0.0] },
+]
+simulate = { t_end = 0.1 }
+"#;
+    let [exact, within] = ["sweep-exact", "sweep-within"].map(Folder::new);
+    let sweep = |folder: &Folder, more: &[&str]| {
+        let words = ["sweep", "-", "--vary", "body.bar.mass=1,2", "--out"];
+        let words: Vec<&str> = words
+            .iter()
+            .chain(&[folder.text()])
+            .chain(more)
+            .copied()
+            .collect();
+        with_scene(&words, bar)
+    };
+    let redundancies = |folder: &Folder| -> Vec<String> {
+        let table = table(folder);
+        let place = table[0].iter().position(|name| name == "redundancy");
+        let place = place.expect("a column");
+        table[1..].iter().map(|row| row[place].clone()).collect()
+    };
+    let output = sweep(&exact, &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(redundancies(&exact), ["1", "1"]);
+    let output = sweep(&within, &["--tolerance", "0.1mm"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(redundancies(&within), ["2", "2"]);
+    // It is another sweep.
+    let output = sweep(&exact, &["--tolerance", "0.1mm"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("belongs to another sweep"));
+}

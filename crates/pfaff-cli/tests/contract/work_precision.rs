@@ -81,7 +81,6 @@ fn wrong_input_is_refused_before_anything_is_run() {
             "no-such-scene",
         ),
         (vec!["work-precision", "--out", out], "<SCENE>"),
-        (vec!["work-precision", super::ROBOT], "--out"),
         (
             vec![
                 "work-precision",

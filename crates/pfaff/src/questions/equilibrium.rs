@@ -12,7 +12,7 @@ use serde::Deserialize;
 pub use answer::{EquilibriumAnswer, ReactionAtRest, RestingBody};
 
 use crate::error::StudyError;
-use crate::question::{Answer, Control, Output, Place, Question};
+use crate::question::{Answer, Control, Output, Place, Question, Writing};
 use crate::refusal::{Refusal, json};
 use crate::run_options::RunOptions;
 use crate::start::Start;
@@ -43,7 +43,7 @@ impl Question for Equilibrium {
     const OUTPUT: Option<Output> = Some(Output {
         family: Family(&[SCENE, DOCUMENT]),
         contents: "a scene that starts there, at rest",
-        streams: None,
+        writing: Writing::AtEnd,
     });
     type Subject<'s> = &'s Start<'s>;
     type Answer = EquilibriumAnswer;

@@ -11,7 +11,7 @@ use serde::Deserialize;
 
 pub use answer::{LineariseAnswer, ModeOfMotion, NamedInput, NamedState, SecondOrderMatrices};
 
-use crate::question::{Answer, Control, Output, Place, Question};
+use crate::question::{Answer, Control, Output, Place, Question, Writing};
 use crate::refusal::{Refusal, json};
 use crate::start::Start;
 use crate::words::Block;
@@ -71,7 +71,7 @@ impl Question for Linearise {
             "mode-*.html",
         ]),
         contents: "matrices and modes as tables, and pages on which the modes move",
-        streams: None,
+        writing: Writing::AtEnd,
     });
     type Subject<'s> = &'s Start<'s>;
     type Answer = LineariseAnswer;

@@ -7,17 +7,23 @@ pub use words::TRUSTED_BALANCE;
 use std::ops::ControlFlow;
 
 use model::System;
-use report::RunDocument;
+use report::documents::EndedDocument;
+use report::{OutputDirectory, RunDocument};
 use serde::{Deserialize, Serialize};
 
 use crate::choice::choices;
 use crate::error::StudyError;
-use crate::question::{Answer, Control, Ending, Output, Progress, Question};
-use crate::refusal::Refusal;
+use crate::question::{
+    Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Output, Progress, Question, Writing,
+};
+use crate::refusal::{Refusal, json};
 use crate::run_options::RunOptions;
 use crate::start::Start;
 use crate::study::FAMILY;
 use crate::words::Block;
+
+/// The file that says whether the others are whole.
+const SUMMARY: &str = "summary.json";
 
 /// Motion and reactions, written into a directory with a report for any browser
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -40,7 +46,7 @@ impl Question for Simulate {
     const OUTPUT: Option<Output> = Some(Output {
         family: FAMILY,
         contents: "the results",
-        streams: Some("summary.json"),
+        writing: Writing::Meanwhile { shared: false, cut },
     });
     type Subject<'s> = &'s Start<'s>;
     type Answer = SimulateAnswer;
@@ -77,6 +83,28 @@ impl Question for Simulate {
             t_end,
             has_report: study.scene.output.report,
         })
+    }
+}
+
+/// Puts the whole rows of the tables at their place, with a summary that says that they are partial.
+fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
+    let Some(scene) = begun else {
+        return NOTHING_WRITTEN.to_owned();
+    };
+    let document = json(&EndedDocument {
+        scene: scene.to_owned(),
+        partial: true,
+        code: INTERRUPTED,
+        error: "interrupted",
+    });
+    let document = document.unwrap_or_default();
+    let place = directory.path().display();
+    if directory.abandon_as(SUMMARY, document.as_bytes(), FAMILY) {
+        format!(
+            "interrupted; kept: whole rows of the tables in `{place}`; {SUMMARY} says that they are partial"
+        )
+    } else {
+        format!("interrupted; nothing was written into `{place}`")
     }
 }
 

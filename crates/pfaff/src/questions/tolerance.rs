@@ -9,7 +9,7 @@ use report::documents::ToleranceDocument;
 use report::{Family, Table};
 use serde::{Deserialize, Serialize};
 
-use crate::question::{Answer, Control, Ending, Output, Place, Progress, Question};
+use crate::question::{Answer, Control, Ending, Output, Place, Progress, Question, Writing};
 use crate::refusal::{Refusal, json};
 use crate::start::Start;
 use crate::tolerance::{
@@ -69,7 +69,7 @@ impl Question for Tolerance {
     const OUTPUT: Option<Output> = Some(Output {
         family: Family(&[TABLE, DOCUMENT, PAGE]),
         contents: "the samples as a table, the document, and a page",
-        streams: None,
+        writing: Writing::AtEnd,
     });
     type Subject<'s> = &'s Start<'s>;
     type Answer = ToleranceAnswer;

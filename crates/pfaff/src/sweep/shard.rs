@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use report::sweep::Runs;
+use serde::{Deserialize, Serialize};
 
 /// The k-th of n parts of a sweep, each of consecutive runs: `k/n`, counted from 1. Parts differ by
 /// at most one run.
@@ -16,7 +17,8 @@ use report::sweep::Runs;
 /// assert!("4/3".parse::<Shard>().is_err());
 /// # Ok::<(), pfaff::sweep::ShardError>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct Shard {
     k: u64,
     n: u64,
@@ -100,6 +102,20 @@ impl Shard {
 impl fmt::Display for Shard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}/{}", self.k, self.n)
+    }
+}
+
+impl From<Shard> for String {
+    fn from(shard: Shard) -> Self {
+        shard.to_string()
+    }
+}
+
+impl TryFrom<String> for Shard {
+    type Error = ShardError;
+
+    fn try_from(text: String) -> Result<Self, ShardError> {
+        text.parse()
     }
 }
 

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
 
 use dynamics::PreparedMechanism;
-use model::{Mechanism, Registry, System};
+use model::{Mechanism, Registry, System, Tolerance};
 use report::sweep::{SweepPlan, digest};
 use report::{SweepRow, SweepStatus};
 use scene::{Template, WantedReactions};
@@ -52,6 +52,8 @@ pub struct Sweep<'r> {
     /// Indices of the requested reactions.
     reactions: Vec<usize>,
     registry: &'r Registry,
+    /// Takes precedence over the tolerance that the scene states.
+    tolerance: Tolerance,
     /// The text of the scene.
     text: String,
     /// The scene without changes, prepared when the first run begins.
@@ -75,6 +77,19 @@ impl<'r> Sweep<'r> {
         axes: Vec<Axis>,
     ) -> Result<Self, SweepError> {
         let assembled = AssembledScene::read(name, text, registry)?;
+        Self::of(&assembled, text, (registry, Tolerance::default()), axes)
+    }
+
+    /// The same of a scene that has been read, whose data are known to this.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub(crate) fn of(
+        assembled: &AssembledScene,
+        text: &str,
+        (registry, tolerance): (&'r Registry, Tolerance),
+        axes: Vec<Axis>,
+    ) -> Result<Self, SweepError> {
         if assembled.scene.simulate.is_none() {
             return Err(StudyError::NoEnd.into());
         }
@@ -92,7 +107,7 @@ impl<'r> Sweep<'r> {
             .collect();
         let plan = SweepPlan {
             scene: assembled.scene.name().to_owned(),
-            digest: format!("{:016x}", digest(text.as_bytes())),
+            digest: format!("{:016x}", digest(known_text(text, tolerance).as_bytes())),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             vary: grid.axes.iter().map(Axis::to_string).collect(),
             runs: grid.len as u64,
@@ -121,6 +136,7 @@ impl<'r> Sweep<'r> {
             plan,
             reactions,
             registry,
+            tolerance,
             text: text.to_owned(),
             described: OnceLock::new(),
             code: OnceLock::new(),
@@ -159,11 +175,14 @@ impl<'r> Sweep<'r> {
         }
     }
 
+    fn assembled(&self, text: &str) -> Result<AssembledScene, StudyError> {
+        AssembledScene::read(&self.plan.scene, text, self.registry)?.stating(self.tolerance)
+    }
+
     /// The scene without changes, if it can be analysed.
     pub(super) fn described(&self) -> Option<&Described> {
         let make = || {
-            let name = &self.plan.scene;
-            let assembled = AssembledScene::read(name, &self.text, self.registry).ok()?;
+            let assembled = self.assembled(&self.text).ok()?;
             Described::new(assembled.prepare(&RunOptions::default()).ok()?)
         };
         self.described.get_or_init(make).as_ref()
@@ -251,7 +270,7 @@ impl<'r> Sweep<'r> {
         let written = self.grid.written((run - 1) as usize);
         let written: Vec<&str> = written.iter().map(String::as_str).collect();
         let text = self.template.with_expressions(&written);
-        let assembled = AssembledScene::read(&self.plan.scene, &text, self.registry)?;
+        let assembled = self.assembled(&text)?;
         let described = self.described();
         let other = described.map(Described::prepared);
         let mut study = assembled.prepare_after(&RunOptions::default(), other)?;
@@ -358,4 +377,14 @@ fn scales(template: &Template, grid: &Grid, registry: &Registry) -> Vec<f64> {
     };
     let told = read(0).or_else(|| read(grid.len - 1));
     told.unwrap_or_else(|| vec![1.0; grid.axes.len()])
+}
+
+/// A text, and what its numbers are known to if whoever asks says so: sweeps that differ in one of
+/// them are different ones.
+fn known_text(text: &str, tolerance: Tolerance) -> String {
+    if tolerance == Tolerance::default() {
+        return text.to_owned();
+    }
+    let Tolerance { length, angle } = tolerance;
+    format!("{text}\n{length:?} {angle:?}")
 }

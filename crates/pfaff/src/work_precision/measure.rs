@@ -6,7 +6,7 @@ use std::time::Instant;
 use dynamics::{MotionError, MotionOptions, Summary};
 
 use super::observation::Observation;
-use super::plan::{Curve, Plan};
+use super::plan::{ComparisonPlan, Curve};
 use crate::study::Study;
 
 /// Smallest number of rows of a run with a budget; it can be given up between two rows.
@@ -121,7 +121,7 @@ pub(super) fn look(
 pub(super) fn clock(
     study: &Study,
     options: &MotionOptions,
-    plan: &Plan,
+    plan: &ComparisonPlan,
     interrupted: &(impl Fn() -> bool + Sync),
 ) -> Option<(Summary, u32)> {
     let options = MotionOptions {

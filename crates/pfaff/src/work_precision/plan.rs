@@ -50,7 +50,7 @@ pub(super) const ACCURATE: [Method; 4] = [
 
 /// The runs of a comparison, the same for every scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
+pub struct ComparisonPlan {
     /// The curves.
     pub curves: Vec<Curve>,
     /// Tolerances, used both as relative and absolute ones, the loosest first.
@@ -64,7 +64,7 @@ pub struct Plan {
     pub budget: f64,
 }
 
-impl Plan {
+impl ComparisonPlan {
     /// Every method with projection, one explicit method with every stabilisation; tolerances 1e-3,
     /// 1e-4, … 1e-13.
     #[must_use]
@@ -118,7 +118,7 @@ impl Plan {
 
 /// All curves: methods first, then the stabilisations compared with one method.
 fn everything() -> Vec<Curve> {
-    let mut curves: Vec<Curve> = methods().map(Plan::usual).collect();
+    let mut curves: Vec<Curve> = methods().map(ComparisonPlan::usual).collect();
     for method in methods() {
         for &stabilisation in Stabilisation::ALL {
             let curve = Curve {

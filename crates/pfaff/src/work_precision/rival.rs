@@ -6,7 +6,7 @@ use dynamics::PreparedMechanism;
 use report::{CurveName, WorkPrecisionRow};
 
 use super::observation::Observation;
-use super::plan::Plan;
+use super::plan::ComparisonPlan;
 use super::standard::{Errors, Standard};
 use super::{GIVEN_UP, Subject};
 
@@ -60,7 +60,7 @@ pub(super) fn row(
     subject: &Subject,
     rival: &dyn Rival,
     empty: WorkPrecisionRow,
-    plan: &Plan,
+    plan: &ComparisonPlan,
     standard: Option<&Standard>,
     interrupted: &(impl Fn() -> bool + Sync),
 ) -> Option<WorkPrecisionRow> {

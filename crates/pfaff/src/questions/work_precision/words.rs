@@ -1,0 +1,25 @@
+//! A comparison in words.
+
+use report::WorkPrecisionDocument;
+
+use crate::question::Ending;
+use crate::words::Block;
+
+pub(super) fn of(document: &WorkPrecisionDocument, ending: &Ending) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    for scene in &document.scenes {
+        let title = format!("{}: {}", scene.name, scene.title);
+        blocks.push(Block::sentence(title));
+        let reference = &scene.reference;
+        let (limit, agreement) = (reference.motion_limit(), &reference.agreement);
+        let known = format!("reference known to {limit:.0e}. {agreement}");
+        let sentences = scene.summary.iter().cloned();
+        let sentences = std::iter::once(known).chain(sentences);
+        blocks.extend(sentences.map(|sentence| Block::after("  ", sentence)));
+    }
+    if let Ending::Partial { error, .. } = ending {
+        blocks.push(Block::sentence(format!("{error}; partial")));
+    }
+    blocks.extend(document.summary.iter().map(Block::sentence));
+    blocks
+}
