@@ -28,7 +28,7 @@ mod _pfaff {
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]
-    use super::scene::{Scene, nearest};
+    use super::scene::{Scene, explain, nearest, templates};
     #[pymodule_export]
     use super::sweep::{Sweep, forget_crashed, merge, sweep_columns};
 

@@ -18,10 +18,12 @@ use pfaff::report::{
     Column as ReportColumn, FileError, Origin, OutputDirectory, Provenance, ReactionColumn,
     Trajectory,
 };
-use pfaff::scene::{KeyError, Template};
+use pfaff::scene::{KeyError, Template as Keys};
 use pfaff::solvability::Choice;
 use pfaff::start::{Judged, Start};
 use pfaff::study::EndedRun;
+use pfaff::template::Template;
+use pfaff::view::{Drawing, Form};
 use pfaff::work_precision::provenance::{date, machine};
 use pfaff::{AssembledScene, RunOptions as Overrides, Study, StudyError, source};
 use pyo3::prelude::*;
@@ -332,6 +334,18 @@ impl Scene {
         Ok(Self::of(name, text))
     }
 
+    /// The scene of a template.
+    #[staticmethod]
+    fn of_template(name: &str) -> PyResult<Self> {
+        let known = Template::ALL.iter().find(|known| known.name() == name);
+        let names: Vec<&str> = Template::ALL.iter().map(|known| known.name()).collect();
+        let template = known
+            .ok_or_else(|| Python::attach(|py| unknown("template", name, &names).raised(py)))?;
+        let file = format!("{name}.toml");
+        let text = template.scene(&file);
+        Ok(Self::of(file, text))
+    }
+
     /// Makes a scene of a model of a robot. Returns it, and what it says of itself: remarks, and
     /// what is left out as pairs of kind and subject.
     #[staticmethod]
@@ -402,7 +416,7 @@ impl Scene {
         let own = Arc::clone(&self.0);
         let text = heard(py, move |_| {
             let of_keys: Vec<&str> = keys.iter().map(String::as_str).collect();
-            let template = match Template::new(&own.text, &of_keys) {
+            let template = match Keys::new(&own.text, &of_keys) {
                 Ok(template) => template,
                 // Its reader says what is wrong.
                 Err(KeyError::NotToml) => return Ok(own.text.clone()),
@@ -428,6 +442,32 @@ impl Scene {
             let groups = mechanism.layout().groups.iter();
             let groups = groups.map(|group| group.name.clone());
             Ok((scene.name().to_owned(), bodies.collect(), groups.collect()))
+        })
+    }
+
+    /// The assembled start as a page or a picture, by the end of a name; with the characters that no
+    /// font of a PNG has.
+    fn view(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        scale: Option<f64>,
+        common: Common,
+    ) -> PyResult<(Vec<u8>, String)> {
+        let own = Arc::clone(&self.0);
+        heard(py, move |_| {
+            let form = Form::of(&path).ok_or_else(|| {
+                let path = path.display();
+                wrong(format!(
+                    "path is `{path}`, need a name that ends with .html, .svg or .png"
+                ))
+            })?;
+            if let (Some(_), Form::Page | Form::Svg) = (scale, form) {
+                return Err(wrong("scale is for a name that ends with .png".to_owned()));
+            }
+            let start = own.start(common.tolerance(), common.budget()?);
+            let drawing = Drawing::new(&start, form, scale, &Control::quiet())?;
+            Ok((drawing.content, drawing.boxes))
         })
     }
 
@@ -707,6 +747,21 @@ fn numbers(
         ))),
         None => Ok(numbers),
     }
+}
+
+/// Names of the templates, each with what it is.
+#[pyfunction]
+pub(crate) fn templates() -> Vec<(&'static str, String)> {
+    let all = Template::ALL.iter();
+    all.map(|known| (known.name(), known.summary())).collect()
+}
+
+/// What the code of an error means, and what to do.
+#[pyfunction]
+pub(crate) fn explain(py: Python<'_>, code: &str) -> PyResult<String> {
+    let entry = pfaff::explain::entry(code);
+    let entry = entry.map_err(|refusal| Fault::from(refusal).raised(py))?;
+    Ok(pfaff::explain::words(entry))
 }
 
 /// The known name that is most similar to a name, if one is.

@@ -395,6 +395,30 @@ def test_examples_are_read(path: Any) -> None:
     assert list(scene.analyze().verdicts) == scene.joints
 
 
+def test_templates_begin_scenes(tmp_path: Path) -> None:
+    known = pfaff.templates()
+    assert len(known) > 30 and "hinges" in known["door"]
+    door = pfaff.Scene.new("door")
+    assert door.analyze().redundancy == 1
+    assert pfaff.Scene.from_string(door.text, door.file) == door
+    with pytest.raises(pfaff.InputError, match="did you mean `door`"):
+        pfaff.Scene.new("doors")
+    for name, begins in (("door.html", b"<!doctype html>"), ("door.svg", b"<svg ")):
+        door.view(tmp_path / name)
+        assert (tmp_path / name).read_bytes().startswith(begins)
+    for wrong in ("door.pdf", "door"):
+        with pytest.raises(pfaff.InputError, match=r"\.html, \.svg or \.png"):
+            door.view(tmp_path / wrong)
+    with pytest.raises(pfaff.InputError, match="scale is for"):
+        door.view(tmp_path / "door.svg", scale=2.0)
+
+
+def test_codes_are_explained() -> None:
+    assert pfaff.explain("P0102").startswith("P0102: ")
+    with pytest.raises(pfaff.InputError, match="there is no code `P9`"):
+        pfaff.explain("P9")
+
+
 def test_the_package_imports_nothing_large() -> None:
     code = "import sys, pfaff; print(*sorted(sys.modules))"
     words = [sys.executable, "-W", "error", "-c", code]

@@ -12,6 +12,7 @@ use clap_complete::Shell;
 use pfaff::command::named;
 use pfaff::import::Base;
 use pfaff::questions::Questions;
+use pfaff::template::Template;
 
 pub(crate) use known::{Known, Settings};
 use values::joint_value;
@@ -19,7 +20,6 @@ use values::joint_value;
 use crate::ask::Asked;
 use crate::output::Answer;
 use crate::resources::{Memory, Resources};
-use crate::template::Template;
 
 /// Mechanisms with redundant constraints: how they move, and which of their joint reactions are
 /// unique.

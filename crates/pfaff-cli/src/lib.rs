@@ -10,11 +10,9 @@ pub mod interrupt;
 mod manual;
 mod new;
 pub mod output;
-mod picture;
 mod progress;
 pub mod provenance;
 mod resources;
-mod template;
 mod view;
 mod watch;
 

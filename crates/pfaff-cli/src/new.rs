@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use pfaff::report::documents::{NewDocument, TemplateDocument, TemplatesDocument};
+use pfaff::template::Template;
 
 use crate::args::New;
 use crate::console::Console;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, columns, replaces, write_file};
-use crate::template::Template;
 
 pub(crate) fn run(arguments: &New, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;

@@ -7,7 +7,7 @@ use pfaff::model::codes::Code;
 use pfaff::question::{INTERRUPTED, NOTHING_WRITTEN};
 use pfaff::refusal;
 use pfaff::report::documents::RefusalDocument;
-use pfaff::report::{Family, FileError, OutputDirectory, OutputFile, Replaces};
+use pfaff::report::{Family, FileError, OutputDirectory, OutputFile, PngError, Replaces};
 use serde::Serialize;
 
 use crate::interrupt::Interrupt;
@@ -51,6 +51,12 @@ pub enum Failure {
 
 impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
+        Refusal::from(error).into()
+    }
+}
+
+impl From<PngError> for Failure {
+    fn from(error: PngError) -> Self {
         Refusal::from(error).into()
     }
 }

@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::path::PathBuf;
 
-use pfaff::report::{Origin, Provenance};
+use pfaff::report::Provenance;
 use pfaff::work_precision::provenance::{date, machine};
 
 /// The machine, versions, date and command of the results.
@@ -19,11 +19,6 @@ pub fn provenance() -> Provenance {
         date: date(),
         command: command(),
     }
-}
-
-/// The command and the versions that made a page.
-pub(crate) fn origin() -> Origin {
-    (&provenance()).into()
 }
 
 /// The command line without the directory of the program.

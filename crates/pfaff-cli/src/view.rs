@@ -5,22 +5,18 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use pfaff::ConfigurationAnalysis;
-use pfaff::model::System;
 use pfaff::question::Control;
-use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::ViewDocument;
-use pfaff::report::figures::{Labels, Marking, labelled_mechanism, png};
-use pfaff::report::{Frame, OutputDirectory, Recording, Replaces, RunPage, Shows, run_page};
+use pfaff::report::figures::check_png;
+use pfaff::report::{OutputDirectory, Replaces};
+use pfaff::view::{Drawing, Form};
 
 use crate::args::View;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, count, write_file};
-use crate::picture::{can_paint, missing, unpainted};
-use crate::provenance::origin;
-use pfaff::start::document_of;
+use crate::provenance::provenance;
 
 pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
@@ -28,7 +24,7 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
         Source::read(&arguments.scene, &arguments.known.settings, console)?.known(&arguments.known);
     let (path, form) = place(arguments)?;
     if form == Form::Png {
-        can_paint(arguments.scale)?;
+        check_png(arguments.scale)?;
     }
     let replaces = if arguments.force {
         Replaces::Files
@@ -39,21 +35,18 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     OutputDirectory::around(&path, replaces)?;
     arguments.resources.apply(console);
     let scene = source.start(arguments.resources);
-    let judged = scene.judged(&Control::quiet())?;
-    let start = scene
-        .configuration(&judged, |_| ())
-        .map_err(|e| scene.refusal(e))?;
-    let document = document_of(&start).map_err(|e| scene.refusal(e))?;
-    let (mut pixels, mut boxes) = (None, String::new());
-    let content = match form {
-        Form::Page => page(&start, &document).into_bytes(),
-        Form::Svg => figure(&start)?.into_bytes(),
-        Form::Png => {
-            let painted = png(&figure(&start)?, arguments.scale).map_err(|e| unpainted(&e))?;
-            (pixels, boxes) = (Some(painted.pixels), painted.boxes);
-            painted.bytes
-        }
+    let control = Control {
+        provenance: &provenance(),
+        ..Control::quiet()
     };
+    let Drawing {
+        scene,
+        content,
+        pixels,
+        boxes,
+        document,
+        ..
+    } = Drawing::new(&scene, form, arguments.scale, &control)?;
     write_file(&path, &content, replaces)?;
     let open = document
         .reactions
@@ -64,12 +57,12 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     if arguments.json {
         return console.document(&ViewDocument {
             ok: true,
-            scene: start.scene.name(),
+            scene: &scene,
             file: path.display().to_string(),
             bytes: content.len(),
             pixels,
             boxes: &boxes,
-            reactions: start.analysis.reactions.len(),
+            reactions: document.reactions.len(),
             not_unique: open,
             fragile,
             mobility: document.ranks.mobility,
@@ -93,64 +86,15 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     let boxes = missing(&boxes);
     console.print(&format!(
         "{}: {}, {open} not unique{fragile}; {}\nwritten to {}\n{boxes}{opened}",
-        start.scene.name(),
+        scene,
         count(
-            start.analysis.reactions.len(),
+            document.reactions.len(),
             "joint or drive",
             "joints and drives"
         ),
         document.ranks.freedoms.summary(document.ranks.mobility),
         path.display()
     ))
-}
-
-/// The picture of the start as SVG.
-fn figure(start: &ConfigurationAnalysis<'_>) -> Result<String, Failure> {
-    let marking = Marking::Verdicts(&start.analysis.reactions);
-    let labels = Labels::NamesAndRows;
-    labelled_mechanism(start.mechanism, 0.0, &start.state.q, marking, labels)
-        .map_err(|e| Failure::stopped(e.to_string()))
-}
-
-/// The page of a run that consists of the start only.
-fn page(start: &ConfigurationAnalysis<'_>, document: &AnalysisDocument) -> String {
-    let mut recording = Recording::new(0.0, 1.0, 1);
-    let frame = Frame::at_rest(0.0, &start.state.q, start.mechanism.layout().n_v);
-    recording.frames.push(frame);
-    run_page(&RunPage {
-        mechanism: start.mechanism,
-        analysis: Some(document),
-        hints: &[],
-        shows: Shows::Start,
-        stretches: None,
-        recording: &recording,
-        comparisons: &[],
-        drives: &[],
-        origin: &origin(),
-        scene: pfaff::written_scene(start.scene),
-        options: &[],
-        left_out: &[],
-        work_precision: None,
-    })
-}
-
-/// What is written.
-#[derive(Clone, Copy, PartialEq)]
-enum Form {
-    Page,
-    Svg,
-    Png,
-}
-
-impl Form {
-    const ALL: [(&str, Self); 3] = [("html", Self::Page), ("svg", Self::Svg), ("png", Self::Png)];
-
-    /// The form that the end of a name asks for.
-    fn of(path: &Path) -> Option<Self> {
-        let end = path.extension()?;
-        let mut forms = Self::ALL.into_iter();
-        forms.find_map(|(name, form)| end.eq_ignore_ascii_case(name).then_some(form))
-    }
 }
 
 /// The path of the file, and what it is.
@@ -208,4 +152,17 @@ fn show(path: &Path) -> Result<(), String> {
 fn has_display() -> bool {
     let is_set = |name: &str| env::var_os(name).is_some_and(|value| !value.is_empty());
     is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")
+}
+
+/// A line on characters that are boxes; empty if there are none.
+fn missing(boxes: &str) -> String {
+    if boxes.is_empty() {
+        return String::new();
+    }
+    let named = boxes.chars().map(|c| match c {
+        c if c.is_alphanumeric() => format!("`{c}`"),
+        c => format!("U+{:04X}", u32::from(c)),
+    });
+    let named: Vec<String> = named.collect();
+    format!("boxes, as no font here has them: {}\n", named.join(", "))
 }

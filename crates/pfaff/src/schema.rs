@@ -48,7 +48,10 @@ fn add_head(document: &mut Schema) {
     let entries = document.ensure_object();
     let own = entries.entry("properties").or_insert_with(none);
     if let (Some(own), Some(head)) = (own.as_object_mut(), head.as_object()) {
-        own.extend(head.clone());
+        for (key, of) in head {
+            // A document may have one of them itself.
+            own.entry(key.clone()).or_insert_with(|| of.clone());
+        }
     }
 }
 

@@ -28,10 +28,10 @@ from ._errors import (
 )
 from ._functions import BodyState
 from ._linearisation import Linearisation
-from ._pfaff import __version__
+from ._pfaff import __version__, explain
 from ._run import BodyMotion, ChosenReactions, Event, Reaction, Run
 from ._samples import Samples
-from ._scene import Matrices, Scene
+from ._scene import Matrices, Scene, templates
 from .cluster import SweepResult
 
 __all__ = [
@@ -61,4 +61,6 @@ __all__ = [
     "WorkPrecision",
     "__version__",
     "cluster",
+    "explain",
+    "templates",
 ]

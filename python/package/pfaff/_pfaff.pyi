@@ -8,7 +8,7 @@ from _typeshed import Incomplete, SupportsGetItem
 from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-__all__ = ["__version__", "Run", "Scene", "Sweep", "_panics", "forget_crashed", "input_code", "merge", "nearest", "sweep_columns", "work_precision"]
+__all__ = ["__version__", "Run", "Scene", "Sweep", "_panics", "forget_crashed", "input_code", "merge", "nearest", "sweep_columns"]
 
 __version__: Final[str]
 """
@@ -167,10 +167,4 @@ def sweep_columns(directory: str | PathLike[str]) -> tuple[str, list[tuple[str, 
     """
     The summary of what is in a directory, and its columns: counts as whole numbers, or with NaN if
     some are unknown, numbers, and lists of texts.
-    """
-
-def work_precision(scene: Scene, quick: bool, all: bool) -> str:
-    """
-    Makes the runs of `pfaff work-precision`, and returns its document. `quick` are three
-    tolerances, `all` every method with every stabilisation.
     """

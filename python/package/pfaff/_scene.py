@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -70,6 +71,11 @@ class Scene(Questions):
     def from_file(cls, path: str | os.PathLike[str]) -> Scene:
         """Reads a file in the format of scenes."""
         return cls._made(_pfaff.Scene.from_file(arguments.path("path", path)))
+
+    @classmethod
+    def new(cls, template: str) -> Scene:
+        """A scene to begin with, by the name of a template; see :func:`pfaff.templates`."""
+        return cls._made(_pfaff.Scene.of_template(arguments.text("template", template)))
 
     @classmethod
     def from_string(cls, text: str, name: str = "scene.toml") -> Scene:
@@ -368,6 +374,29 @@ class Scene(Questions):
         """
         return sweep(self, vary, None, out=out, threads=threads, **options)
 
+    def view(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        scale: float | None = None,
+        tolerance: float | None = None,
+        angle_tolerance: float | None = None,
+        max_memory: int | str | None = None,
+    ) -> None:
+        """Writes the assembled start, with joints marked by their verdicts.
+
+        A name that ends with ``.html`` is a page, ``.svg`` a picture, and so is ``.png``, if the
+        package was built with the feature ``png``; ``scale`` is its number of pixels for each px.
+        """
+        common = Common(tolerance, angle_tolerance, None, max_memory)
+        name = arguments.path("path", path)
+        pixels = arguments.maybe(arguments.number, "scale", scale)
+        content, boxes = self._of.view(name, pixels, common.checked())
+        with open(name, "wb") as file:
+            file.write(content)
+        if boxes:
+            warnings.warn(f"no font has these characters: {boxes}", stacklevel=2)
+
     def matrices(
         self,
         q: ArrayLike | None = None,
@@ -403,6 +432,11 @@ class Scene(Questions):
 
     def _repr_html_(self) -> str:
         return self.analyze()._repr_html_()
+
+
+def templates() -> dict[str, str]:
+    """What each template is, by its name; :meth:`Scene.new` begins with one."""
+    return dict(_pfaff.templates())
 
 
 def _between(bodies: Bodies | None) -> dict[str, Any]:

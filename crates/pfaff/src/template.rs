@@ -4,8 +4,8 @@
 const WIDTH: usize = 96;
 
 /// A scene that comes with the program.
-#[derive(Clone, Copy)]
-pub(crate) struct Template {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Template {
     name: &'static str,
     text: &'static str,
 }
@@ -33,7 +33,7 @@ const ROBOT: Template = Template {
 
 impl Template {
     /// All templates.
-    pub(crate) const ALL: &'static [Self] = &{
+    pub const ALL: &'static [Self] = &{
         let mut all = [ROBOT; EXAMPLES.len() + 1];
         let mut k = 0;
         while k < EXAMPLES.len() {
@@ -43,12 +43,15 @@ impl Template {
         all
     };
 
-    pub(crate) fn name(self) -> &'static str {
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
         self.name
     }
 
     /// The first sentence of its text, which describes it.
-    pub(crate) fn summary(self) -> String {
+    #[must_use]
+    pub fn summary(self) -> String {
         let lines = self.text.lines().map_while(|line| line.strip_prefix("# "));
         let words = lines.collect::<Vec<_>>().join(" ");
         let end = words
@@ -66,7 +69,8 @@ impl Template {
     }
 
     /// The scene with a header that explains how to use it; `file` is its name in the header.
-    pub(crate) fn scene(self, file: &str) -> String {
+    #[must_use]
+    pub fn scene(self, file: &str) -> String {
         let Self { name, text } = self;
         format!(
             "# Begun with `pfaff new {name}`. What to do with it:

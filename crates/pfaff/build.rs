@@ -1,0 +1,23 @@
+//! Passes to the library where the scenes are that come with it.
+
+use std::path::Path;
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    scenes("PFAFF_EXAMPLES", "../../examples", "scenes");
+    let robot = "robot-trolley.toml";
+    scenes("PFAFF_ROBOT", &format!("../robot-trolley/{robot}"), robot);
+}
+
+/// Sets a variable to a path: in a checkout of the repository that of the originals, in a package
+/// that of their copies. In a checkout the copies are links, which some systems do not follow.
+fn scenes(variable: &str, original: &str, copy: &str) {
+    let root = std::env::var("CARGO_MANIFEST_DIR").unwrap_or_default();
+    let originals = Path::new(&root).join(original);
+    let path = if originals.exists() {
+        originals
+    } else {
+        Path::new(&root).join(copy)
+    };
+    println!("cargo::rustc-env={variable}={}", path.display());
+}

@@ -1,0 +1,118 @@
+//! The assembled start as a page, or as a picture with joints marked by their verdicts.
+
+use std::path::Path;
+
+use model::System;
+use report::figures::{Labels, Marking, labelled_mechanism, png};
+use report::{AnalysisDocument, Frame, Origin, Recording, RunPage, Shows, run_page};
+
+use crate::configuration::ConfigurationAnalysis;
+use crate::question::Control;
+use crate::refusal::Refusal;
+use crate::start::{Start, document_of};
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// A page for any browser.
+    Page,
+    /// A picture as SVG.
+    Svg,
+    /// A picture as PNG.
+    Png,
+}
+
+impl Form {
+    /// All forms, by the end of the names of their files.
+    pub const ALL: [(&str, Self); 3] =
+        [("html", Self::Page), ("svg", Self::Svg), ("png", Self::Png)];
+
+    /// The form that the end of a name asks for.
+    #[must_use]
+    pub fn of(path: &Path) -> Option<Self> {
+        let end = path.extension()?;
+        let mut forms = Self::ALL.into_iter();
+        forms.find_map(|(name, form)| end.eq_ignore_ascii_case(name).then_some(form))
+    }
+}
+
+/// A drawn start.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Drawing {
+    /// Name of the scene.
+    pub scene: String,
+    /// The file.
+    pub content: Vec<u8>,
+    /// Size of a PNG (pixels).
+    pub pixels: Option<[u32; 2]>,
+    /// Characters that are boxes in a PNG, as no font has them.
+    pub boxes: String,
+    /// What the verdicts are that it shows.
+    pub document: AnalysisDocument,
+}
+
+impl Drawing {
+    /// Draws the start of a scene; `scale` is the number of pixels of a PNG for each px.
+    ///
+    /// # Errors
+    /// The scene has no start, or the picture cannot be painted.
+    pub fn new(
+        of: &Start<'_>,
+        form: Form,
+        scale: Option<f64>,
+        control: &Control<'_>,
+    ) -> Result<Self, Refusal> {
+        let judged = of.judged(control)?;
+        let start = of.configuration(&judged, |_| ());
+        let start = start.map_err(|e| of.refusal(e))?;
+        let document = document_of(&start).map_err(|e| of.refusal(e))?;
+        let (mut pixels, mut boxes) = (None, String::new());
+        let content = match form {
+            Form::Page => page(&start, &document, &control.provenance.into()).into_bytes(),
+            Form::Svg => figure(&start)?.into_bytes(),
+            Form::Png => {
+                let painted = png(&figure(&start)?, scale)?;
+                (pixels, boxes) = (Some(painted.pixels), painted.boxes);
+                painted.bytes
+            }
+        };
+        Ok(Self {
+            scene: start.scene.name().to_owned(),
+            content,
+            pixels,
+            boxes,
+            document,
+        })
+    }
+}
+
+/// The picture of the start as SVG.
+fn figure(start: &ConfigurationAnalysis<'_>) -> Result<String, Refusal> {
+    let marking = Marking::Verdicts(&start.analysis.reactions);
+    let labels = Labels::NamesAndRows;
+    labelled_mechanism(start.mechanism, 0.0, &start.state.q, marking, labels)
+        .map_err(|e| Refusal::stopped(e.to_string()))
+}
+
+/// The page of a run that consists of the start only.
+fn page(start: &ConfigurationAnalysis<'_>, document: &AnalysisDocument, origin: &Origin) -> String {
+    let mut recording = Recording::new(0.0, 1.0, 1);
+    let frame = Frame::at_rest(0.0, &start.state.q, start.mechanism.layout().n_v);
+    recording.frames.push(frame);
+    run_page(&RunPage {
+        mechanism: start.mechanism,
+        analysis: Some(document),
+        hints: &[],
+        shows: Shows::Start,
+        stretches: None,
+        recording: &recording,
+        comparisons: &[],
+        drives: &[],
+        origin,
+        scene: crate::written_scene(start.scene),
+        options: &[],
+        left_out: &[],
+        work_precision: None,
+    })
+}
