@@ -20,7 +20,7 @@ use pfaff::report::{
 };
 use pfaff::scene::{KeyError, Template as Keys};
 use pfaff::solvability::Choice;
-use pfaff::start::{Judged, Start};
+use pfaff::start::{JudgedStart, Start};
 use pfaff::study::EndedRun;
 use pfaff::template::Template;
 use pfaff::view::{Drawing, Form};
@@ -92,7 +92,7 @@ impl Source {
         &self,
         (tolerance, budget): (Tolerance, Budget),
         drop: Option<Vec<usize>>,
-    ) -> Result<Arc<Judged>, Fault> {
+    ) -> Result<Arc<JudgedStart>, Fault> {
         let start = self.start(tolerance, budget);
         let with = Overrides {
             drop,
@@ -485,7 +485,7 @@ impl Scene {
             let drop = rows_from_zero(drop.as_deref())?;
             let judged = own.judged((common.tolerance(), common.budget()?), drop)?;
             let state = match judged.as_ref() {
-                Judged::Stands(stands) if t == 0.0 => stands.kept.state.clone(),
+                JudgedStart::Stands(stands) if t == 0.0 => stands.kept.state.clone(),
                 judged => {
                     let found = judged.study()?.state_until(t, &|| hearing.has_ended());
                     found.map_err(|e| own.fault(e))?
@@ -603,8 +603,8 @@ impl Scene {
             let budget = budget(max_memory.as_ref())?;
             let judged = own.judged((Tolerance::default(), budget), None)?;
             let (own_q, own_v) = match judged.as_ref() {
-                Judged::Moves(study) => (&study.prepared.q, &study.prepared.v),
-                Judged::Stands(stands) => (&stands.kept.state.q, &stands.kept.state.v),
+                JudgedStart::Moves(study) => (&study.prepared.q, &study.prepared.v),
+                JudgedStart::Stands(stands) => (&stands.kept.state.q, &stands.kept.state.v),
             };
             let (_, mechanism) = judged.parts();
             let layout = mechanism.layout();

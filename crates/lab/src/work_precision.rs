@@ -7,7 +7,7 @@ use dynamics::PreparedMechanism;
 use pfaff::model::Registry;
 use pfaff::report::CurveName;
 use pfaff::work_precision::{
-    Expected, Kind, Observation, Reference, Rival, RivalFault, RivalRun, Subject,
+    Kind, Observation, Reference, ReferenceInstant, Rival, RivalFault, RivalRun, Subject,
 };
 use pfaff::{RunOptions, Study, StudyError};
 use suite::{Case, Quantity};
@@ -47,7 +47,7 @@ pub fn of_case(case: &Case) -> Result<Subject, StudyError> {
             let place = kind.place(&fact.of, name, &study.prepared.mechanism);
             values[kind as usize].extend(place.map(|place| (place, fact.value)));
         }
-        Expected {
+        ReferenceInstant {
             t: instant.t,
             values,
         }

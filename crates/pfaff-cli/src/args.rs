@@ -14,10 +14,10 @@ use pfaff::import::Base;
 use pfaff::questions::Questions;
 use pfaff::template::Template;
 
-pub(crate) use known::{Known, Settings};
+pub(crate) use known::{SceneOptions, Settings};
 use values::joint_value;
 
-use crate::ask::Asked;
+use crate::ask::AskCommand;
 use crate::output::Answer;
 use crate::resources::{Memory, Resources};
 
@@ -37,7 +37,7 @@ pub(crate) struct Arguments {
 #[derive(Subcommand)]
 pub(crate) enum Command {
     #[command(flatten)]
-    Ask(Asked),
+    Ask(AskCommand),
     /// Create a scene from a template; without a name, list the templates
     #[command(after_help = examples::NEW)]
     New(New),
@@ -150,7 +150,7 @@ pub(crate) struct View {
     #[arg(long)]
     pub(crate) no_open: bool,
     #[command(flatten)]
-    pub(crate) known: Known,
+    pub(crate) known: SceneOptions,
     #[command(flatten)]
     pub(crate) resources: Resources,
     /// The written file as one JSON document on standard output; opens nothing

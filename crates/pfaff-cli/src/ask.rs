@@ -12,7 +12,7 @@ use pfaff::questions::{Facts, Questions};
 use pfaff::report::{FileError, OutputDirectory};
 use pfaff::words;
 
-use crate::args::Known;
+use crate::args::SceneOptions;
 use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
@@ -23,7 +23,7 @@ use crate::resources::Resources;
 use crate::watch;
 
 /// A question that is asked on the command line.
-pub(crate) struct Asked {
+pub(crate) struct AskCommand {
     question: Questions,
     facts: &'static Facts,
     scenes: Vec<PathBuf>,
@@ -50,7 +50,7 @@ struct CommonOptions {
     #[arg(long, conflicts_with = "json")]
     watch: bool,
     #[command(flatten)]
-    known: Known,
+    known: SceneOptions,
     #[command(flatten)]
     resources: Resources,
     /// The answer as one JSON document on standard output
@@ -61,7 +61,7 @@ struct CommonOptions {
 /// The name of the argument with the scenes.
 const SCENES: &str = "scenes";
 
-impl Subcommand for Asked {
+impl Subcommand for AskCommand {
     fn augment_subcommands(command: Command) -> Command {
         let all = Questions::augment_subcommands(command);
         let complete = |all: Command, facts: &Facts| {
@@ -98,7 +98,7 @@ impl Subcommand for Asked {
     }
 }
 
-impl FromArgMatches for Asked {
+impl FromArgMatches for AskCommand {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let question = Questions::from_arg_matches(matches)?;
         let asked = matches.subcommand().and_then(|(name, own)| {
@@ -123,7 +123,7 @@ impl FromArgMatches for Asked {
     }
 }
 
-impl Asked {
+impl AskCommand {
     /// The form of the answer.
     pub(crate) fn answer(&self) -> Answer {
         if self.of.json {

@@ -8,7 +8,7 @@ use pfaff::scene::{KeyError, Template, nearest};
 use pfaff::source;
 use pfaff::start::Start;
 
-use crate::args::{Known, Settings};
+use crate::args::{SceneOptions, Settings};
 use crate::console::Console;
 use crate::output::Failure;
 use crate::resources::Resources;
@@ -43,7 +43,7 @@ impl<'r> Source<'r> {
     }
 
     /// The same scene with numbers known to this.
-    pub(crate) fn known(self, known: &Known) -> Self {
+    pub(crate) fn known(self, known: &SceneOptions) -> Self {
         Self {
             tolerance: known.into(),
             ..self

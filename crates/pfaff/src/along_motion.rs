@@ -89,7 +89,7 @@ impl VerdictsAlongMotion {
 
 /// Progress of the verdicts along a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Progress {
+pub enum MotionProgress {
     /// The motion has reached this time (s).
     Moving(f64),
     /// Verdicts are computed at this time (s); searches move in both directions.
@@ -126,7 +126,7 @@ impl Study {
     pub fn verdicts_along_motion(
         &self,
         t_end: Option<f64>,
-        progress: impl FnMut(Progress) + Send,
+        progress: impl FnMut(MotionProgress) + Send,
     ) -> Result<VerdictsAlongMotion, StudyError> {
         self.verdicts_along_motion_until(t_end, &|| false, progress)
     }
@@ -140,7 +140,7 @@ impl Study {
         &self,
         t_end: Option<f64>,
         stop: &Stop<'_>,
-        mut progress: impl FnMut(Progress) + Send,
+        mut progress: impl FnMut(MotionProgress) + Send,
     ) -> Result<VerdictsAlongMotion, StudyError> {
         let own = self.options.as_ref().map(|options| options.t_end);
         let t_end = t_end.or(own).ok_or(StudyError::NoEnd)?;
@@ -191,7 +191,7 @@ impl Study {
         &self,
         run: &Record,
         intervals: usize,
-        progress: &mut (impl FnMut(Progress) + Send),
+        progress: &mut (impl FnMut(MotionProgress) + Send),
     ) -> Option<VerdictsAlongMotion> {
         let last = run.rows.last().filter(|_| run.rows.len() > 1)?.t;
         let to = run.reached
@@ -216,7 +216,7 @@ impl Study {
         run: &Record,
         to: f64,
         intervals: usize,
-        progress: &mut (impl FnMut(Progress) + Send),
+        progress: &mut (impl FnMut(MotionProgress) + Send),
     ) -> Result<MotionAnalysis, StudyError> {
         let times: Vec<f64> = (0..=intervals)
             .map(|k| to * (k as f64 / intervals as f64))
@@ -225,7 +225,7 @@ impl Study {
         let motion = |t: f64, extent: &Extent| {
             // Skips the report while another thread is reporting.
             if let Ok(mut progress) = progress.try_lock() {
-                progress(Progress::Judging(t));
+                progress(MotionProgress::Judging(t));
             }
             run.state(t, extent)
         };
@@ -242,7 +242,7 @@ impl Study {
         &self,
         run: Record,
         intervals: usize,
-        progress: &mut (impl FnMut(Progress) + Send),
+        progress: &mut (impl FnMut(MotionProgress) + Send),
     ) -> Result<VerdictsAlongMotion, StudyError> {
         let Some(to) = run.rows.last().map(|row| row.t).filter(|t| *t > 0.0) else {
             return Err(match run.stopped {
@@ -266,7 +266,7 @@ impl Study {
         t_end: f64,
         intervals: usize,
         stop: &Stop<'_>,
-        progress: &mut (impl FnMut(Progress) + Send),
+        progress: &mut (impl FnMut(MotionProgress) + Send),
     ) -> Result<Record, StudyError> {
         let base = self.options.clone();
         let many = self.prepared.mechanism.layout().rows() > MANY;
@@ -299,7 +299,7 @@ impl Study {
         };
         let goes_on = |_| ControlFlow::Continue(());
         let outcome = plan.simulate_watched(&goes_on, &stop, |sample| {
-            progress(Progress::Moving(sample.t));
+            progress(MotionProgress::Moving(sample.t));
             let mut qd = vec![0.0; sample.q.len()];
             mechanism.rate(sample.q, sample.v, &mut qd);
             rows.push(Row {

@@ -27,18 +27,26 @@ pub fn allowed(text: &str, rows: usize) -> Result<DeletableRows, Refusal> {
 }
 
 /// What choices refer to: the number of rows of a mechanism, and its joints and drives by name.
-pub type Named<'a> = (usize, &'a dyn Fn(&str) -> Result<ConstraintId, StudyError>);
+pub type ChoiceScope<'a> = (usize, &'a dyn Fn(&str) -> Result<ConstraintId, StudyError>);
 
 /// The choices of `--choose`.
 ///
 /// # Errors
 /// What is expected instead, or a name that is none.
-pub fn choices(texts: &[String], of: &Start<'_>, named: Named<'_>) -> Result<Vec<Choice>, Refusal> {
+pub fn choices(
+    texts: &[String],
+    of: &Start<'_>,
+    named: ChoiceScope<'_>,
+) -> Result<Vec<Choice>, Refusal> {
     let each = texts.iter().map(|text| choice(text, of, named));
     each.collect()
 }
 
-fn choice(text: &str, of: &Start<'_>, (rows, reaction): Named<'_>) -> Result<Choice, Refusal> {
+fn choice(
+    text: &str,
+    of: &Start<'_>,
+    (rows, reaction): ChoiceScope<'_>,
+) -> Result<Choice, Refusal> {
     let (kind, rest) = match text.split_once(':') {
         Some((kind, rest)) => (kind, Some(rest)),
         None => (text, None),

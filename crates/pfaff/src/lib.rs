@@ -73,7 +73,7 @@ pub use report;
 pub use scene;
 pub use solvability;
 
-pub use along_motion::{Progress, VerdictsAlongMotion};
+pub use along_motion::{MotionProgress, VerdictsAlongMotion};
 pub use assembled::AssembledScene;
 pub use configuration::ConfigurationAnalysis;
 pub use error::StudyError;

@@ -53,7 +53,7 @@ where
 }
 
 /// A run that has ended.
-pub(crate) struct Ended {
+pub(crate) struct RunEnd {
     pub(crate) summary: Summary,
     /// Why it stopped by itself.
     pub(crate) error: Option<MotionError>,
@@ -62,7 +62,7 @@ pub(crate) struct Ended {
     pub(crate) unwritten: Option<TableError>,
 }
 
-impl Ended {
+impl RunEnd {
     /// How it ended; a run whose rows could not be written is partial.
     pub(crate) fn ending(&self) -> Ending<'_> {
         match (&self.error, self.interrupted || self.unwritten.is_some()) {
@@ -84,7 +84,7 @@ pub(crate) fn run_into(
     (watch, stop): (&(dyn Fn(f64) -> ControlFlow<()> + Sync), &Stop<'_>),
     each: &mut dyn FnMut(f64) -> ControlFlow<()>,
     sinks: &mut [&mut dyn RowSink],
-) -> Result<Ended, StudyError> {
+) -> Result<RunEnd, StudyError> {
     let interrupted = AtomicBool::new(false);
     let note = |flow: ControlFlow<()>| {
         interrupted.fetch_or(flow.is_break(), Ordering::Relaxed);
@@ -122,7 +122,7 @@ pub(crate) fn run_into(
             (summary, Some(error))
         }
     };
-    Ok(Ended {
+    Ok(RunEnd {
         summary,
         error,
         interrupted: interrupted.into_inner(),

@@ -8,7 +8,7 @@ use dynamics::{MotionError, OutputRequest, Plan, PreparedMechanism, Sample, Stop
 use report::Ending;
 use report::documents::SpreadDocument;
 
-use crate::rows::{Ended, RowFault, RowSink};
+use crate::rows::{RowFault, RowSink, RunEnd};
 
 /// Configurations of a run at its rows of output, if rows of it may miss.
 pub(crate) struct Path {
@@ -37,7 +37,7 @@ impl Path {
     pub(crate) fn spread_of(
         &self,
         plan: &Plan<'_>,
-        ended: &Ended,
+        ended: &RunEnd,
         stop: &Stop<'_>,
     ) -> Option<SpreadDocument> {
         match ended.ending() {

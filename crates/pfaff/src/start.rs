@@ -28,7 +28,7 @@ pub struct Start<'r> {
     pub registry: &'r Registry,
     /// What its computations may take of the memory.
     pub budget: Budget,
-    judged: OnceLock<Arc<Judged>>,
+    judged: OnceLock<Arc<JudgedStart>>,
     verdicts: OnceLock<KeptAnalysis>,
 }
 
@@ -103,10 +103,14 @@ impl<'r> Start<'r> {
     ///
     /// # Errors
     /// As [`Self::assembled`], or there is no start.
-    pub fn judged_with(&self, with: &RunOptions, control: &Control<'_>) -> Result<Judged, Refusal> {
+    pub fn judged_with(
+        &self,
+        with: &RunOptions,
+        control: &Control<'_>,
+    ) -> Result<JudgedStart, Refusal> {
         let assembled = self.assembled(control)?;
         let error = match self.prepare(assembled, with, control) {
-            Ok(study) => return Ok(Judged::Moves(Arc::new(study))),
+            Ok(study) => return Ok(JudgedStart::Moves(Arc::new(study))),
             Err(e) => e,
         };
         let Some(warning) = error.only_motion() else {
@@ -116,7 +120,7 @@ impl<'r> Start<'r> {
         let mut assembled = self.assembled(control)?;
         let kept = assembled.analyse(with.drop.as_deref());
         let kept = kept.map_err(|e| self.refusal(e))?.kept();
-        Ok(Judged::Stands(Box::new(Standing {
+        Ok(JudgedStart::Stands(Box::new(Standing {
             assembled,
             kept,
             warning,
@@ -128,7 +132,7 @@ impl<'r> Start<'r> {
     ///
     /// # Errors
     /// As [`Self::judged_with`].
-    pub fn judged(&self, control: &Control<'_>) -> Result<Arc<Judged>, Refusal> {
+    pub fn judged(&self, control: &Control<'_>) -> Result<Arc<JudgedStart>, Refusal> {
         if let Some(judged) = self.judged.get() {
             // A limit refuses the same scenes whether or not they are known.
             if self.budget.limit.is_some() {
@@ -149,12 +153,12 @@ impl<'r> Start<'r> {
     /// C cannot be analysed.
     pub fn configuration<'j>(
         &self,
-        judged: &'j Judged,
+        judged: &'j JudgedStart,
         progress: impl Fn(usize) + Sync,
     ) -> Result<ConfigurationAnalysis<'j>, StudyError> {
         let known = match judged {
-            Judged::Stands(stands) => &stands.kept,
-            Judged::Moves(study) => match self.verdicts.get() {
+            JudgedStart::Stands(stands) => &stands.kept,
+            JudgedStart::Moves(study) => match self.verdicts.get() {
                 Some(known) => known,
                 None => {
                     let found = study.analyse_with_progress(0.0, None, progress)?;
@@ -177,7 +181,7 @@ impl<'r> Start<'r> {
 }
 
 /// A start with its verdicts.
-pub enum Judged {
+pub enum JudgedStart {
     /// It can move.
     Moves(Arc<Study>),
     /// It can only be judged.
@@ -196,7 +200,7 @@ pub struct Standing {
     pub refusal: Refusal,
 }
 
-impl Judged {
+impl JudgedStart {
     /// The scene and its mechanism.
     #[must_use]
     pub fn parts(&self) -> (&Scene, &Mechanism) {

@@ -35,7 +35,7 @@ use crate::assembled::{AssembledScene, refused};
 use crate::configuration::{AskedRows, ConfigurationAnalysis, requests};
 use crate::error::StudyError;
 use crate::report_builder::{OfRun, ReportBuilder};
-use crate::rows::{Calling, Ended, RowFault, RowSink, run_into};
+use crate::rows::{Calling, RowFault, RowSink, RunEnd, run_into};
 use crate::run_options::RunOptions;
 use crate::spread::Path;
 use crate::tables_of_run::{
@@ -666,13 +666,13 @@ impl Study {
         let ended = run_into(&plan, (&goes_on, stop), &mut |_| goes_on(0.0), sinks)?;
         let found = ended.summary.verdicts.as_ref();
         let peaks = found.map_or_else(Vec::new, |found| peaks.finish(&columns, found));
-        let written = Written {
+        let written = WrittenRun {
             spread: path.spread_of(&plan, &ended, stop),
             rows,
             columns: &columns,
             peaks: &peaks,
             gaps: &gaps,
-            ..Written::default()
+            ..WrittenRun::default()
         };
         Ok(EndedRun {
             document: begun.document(&plan, &ended, written),
@@ -697,11 +697,11 @@ impl Study {
     }
 
     /// What is known of a run before it begins.
-    fn begun(&self) -> Result<Begun<'_>, StudyError> {
+    fn begun(&self) -> Result<RunPreparation<'_>, StudyError> {
         let start = self.analyse(0.0, None)?;
         let choices = self.choices.iter().map(|choice| start.named(choice));
         let sensitivities = start.sensitivities()?;
-        Ok(Begun {
+        Ok(RunPreparation {
             choices: choices.collect::<Result<_, _>>()?,
             freedoms: start.freedoms()?,
             group_sensitivities: start.group_sensitivities(&sensitivities)?,
@@ -866,7 +866,7 @@ impl Study {
         let document = begun.document(
             &plan,
             &ended,
-            Written {
+            WrittenRun {
                 spread: path.spread_of(&plan, &ended, stop),
                 rows: written_rows,
                 files: &files,
@@ -906,7 +906,7 @@ impl Study {
 }
 
 /// What is known of a run before it begins.
-struct Begun<'s> {
+struct RunPreparation<'s> {
     start: ConfigurationAnalysis<'s>,
     freedoms: Freedoms,
     sensitivities: Sensitivities,
@@ -919,7 +919,7 @@ struct Begun<'s> {
 
 /// What was written of a run.
 #[derive(Default)]
-struct Written<'w> {
+struct WrittenRun<'w> {
     spread: Option<SpreadDocument>,
     rows: usize,
     files: &'w [String],
@@ -928,7 +928,7 @@ struct Written<'w> {
     peaks: &'w [Option<Peak>],
 }
 
-impl Begun<'_> {
+impl RunPreparation<'_> {
     /// The requested output with the groups of the scene and the choices.
     fn wanted(&self, wanted: OutputRequest) -> OutputRequest {
         let groups = self.groups.iter().map(|(_, group)| group.clone());
@@ -957,7 +957,7 @@ impl Begun<'_> {
         own.is_some_and(Sensitivity::is_fragile)
     }
 
-    fn document(&self, plan: &Plan<'_>, ended: &Ended, written: Written<'_>) -> RunDocument {
+    fn document(&self, plan: &Plan<'_>, ended: &RunEnd, written: WrittenRun<'_>) -> RunDocument {
         let verdicts = ended.summary.verdicts.as_ref();
         RunDocument::new(&Run {
             plan,

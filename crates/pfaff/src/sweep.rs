@@ -193,10 +193,10 @@ pub fn forget_crashed(directory: &Path) -> Result<u64, SweepError> {
 /// # Errors
 /// [`SweepError::Journal`]: they belong to different sweeps, or two rows of one run differ;
 /// [`SweepError::File`], [`SweepError::Table`]: something could not be written.
-pub fn merge<P: AsRef<Path>>(directories: &[P], into: &Path) -> Result<Merged, SweepError> {
+pub fn merge<P: AsRef<Path>>(directories: &[P], into: &Path) -> Result<MergedSweep, SweepError> {
     let records = Records::merged(directories)?;
     let output = OutputDirectory::create(into)?.shared()?;
-    Ok(Merged {
+    Ok(MergedSweep {
         document: write_sweep::<SweepError>(&output, &records)?,
         shards: Shard::number(records.plan.runs, &records.sealed),
     })
@@ -204,7 +204,7 @@ pub fn merge<P: AsRef<Path>>(directories: &[P], into: &Path) -> Result<Merged, S
 
 /// What [`merge`] has found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Merged {
+pub struct MergedSweep {
     /// All runs.
     pub document: SweepDocument,
     /// The number of shards in which the runs were made, if the finished ones tell.

@@ -35,10 +35,10 @@ use crate::workers::Workers;
 use nominal::Nominal;
 
 pub use error::ToleranceError;
-pub use failed::Failed;
+pub use failed::SampleFailure;
 pub use limits::{ROWS_MAX, SAMPLES, SAMPLES_MAX};
-pub use sample::{Assembled, Sample};
-pub use vary::{Variation, Varied};
+pub use sample::{AssembledSample, Sample};
+pub use vary::{Variation, VariedText};
 
 /// Settings of the samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,7 +88,7 @@ impl Default for ToleranceOptions {
 /// ```
 pub struct ToleranceStudy<'r> {
     nominal: Nominal,
-    vary: Option<Varied<'r>>,
+    vary: Option<VariedText<'r>>,
 }
 
 /// All samples, and what they say together.
@@ -118,7 +118,7 @@ impl<'r> ToleranceStudy<'r> {
     pub fn varying(
         assembled: AssembledScene,
         t: f64,
-        vary: Option<Varied<'r>>,
+        vary: Option<VariedText<'r>>,
     ) -> Result<Self, ToleranceError> {
         let mechanism = &assembled.mechanism;
         if !mechanism.has_tolerances() && vary.is_none() {

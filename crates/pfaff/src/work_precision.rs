@@ -25,7 +25,7 @@ use report::{CurveName, ReferenceDocument, WorkPrecisionRow, WorkPrecisionScene}
 
 use crate::error::StudyError;
 use crate::study::Study;
-use measure::{Ending, Look, Times, clock, look, options};
+use measure::{Look, RunEnding, Times, clock, look, options};
 use plan::ACCURATE;
 use standard::{Standard, unique_reactions};
 
@@ -33,7 +33,7 @@ pub use observation::{Kind, Observation};
 pub use overview::overview;
 pub use plan::{ComparisonPlan, Curve};
 pub use rival::{Rival, RivalFault, RivalRun};
-pub use standard::{Errors, Expected, Reference};
+pub use standard::{Errors, Reference, ReferenceInstant};
 
 /// Number of instants at which motions without a known solution are compared.
 const INSTANTS: u32 = 5;
@@ -55,7 +55,7 @@ pub struct Subject {
 
 /// A comparison, finished or interrupted.
 #[derive(Clone, Debug)]
-pub struct Comparison {
+pub struct SceneComparison {
     /// References, runs, and ranking.
     pub scene: WorkPrecisionScene,
     /// Whether it was interrupted.
@@ -130,7 +130,7 @@ impl Subject {
     pub fn errors(&self, curve: Curve, tolerance: f64) -> Result<Option<Errors>, StudyError> {
         let options = options(&self.base, curve, tolerance);
         let run = look(&self.study, &options, &self.times, f64::INFINITY, &|| false);
-        if let Ending::Failed(error) = run.ending {
+        if let RunEnding::Failed(error) = run.ending {
             return Err(error.into());
         }
         let known = self.reference();
@@ -150,7 +150,7 @@ impl Subject {
         rivals: &[&dyn Rival],
         interrupted: &(impl Fn() -> bool + Sync),
         mut row: impl FnMut(&WorkPrecisionRow) -> Result<(), E>,
-    ) -> Result<Comparison, E> {
+    ) -> Result<SceneComparison, E> {
         let (standard, document) = self.standard(plan, interrupted)?;
         let own = plan.curves.iter().map(|&curve| Contender::Own(curve));
         let ways: Vec<Contender<'_>> = own
@@ -180,7 +180,7 @@ impl Subject {
             }
         }
         let ranking = ranking::ranking(&rows, document.motion_limit());
-        Ok(Comparison {
+        Ok(SceneComparison {
             interrupted: rows.len() < runs,
             scene: WorkPrecisionScene {
                 name: self.name.clone(),
@@ -227,16 +227,16 @@ impl Subject {
             ..empty
         };
         let timed = match ending {
-            Ending::Interrupted => return None,
-            Ending::Reached => clock(&self.study, &options, plan, interrupted),
-            Ending::GivenUp(t) => {
+            RunEnding::Interrupted => return None,
+            RunEnding::Reached => clock(&self.study, &options, plan, interrupted),
+            RunEnding::GivenUp(t) => {
                 row.status = format!(
                     "{GIVEN_UP}: {:.0} s of computing led to t = {t:.3} s",
                     plan.budget
                 );
                 None
             }
-            Ending::Failed(error) => {
+            RunEnding::Failed(error) => {
                 row.status = match summary.steps {
                     0 => format!("refused: {error}"),
                     _ => format!("stopped: {error}"),
@@ -322,12 +322,12 @@ impl Subject {
                 let options = options(&self.base, curve, tolerance);
                 let run = look(&self.study, &options, &self.times, plan.budget, interrupted);
                 match run.ending {
-                    Ending::Reached => {
+                    RunEnding::Reached => {
                         let verdicts = run.summary.verdicts?;
                         return Some((method, tolerance, run.observations, verdicts));
                     }
-                    Ending::Failed(_) => {}
-                    Ending::GivenUp(_) | Ending::Interrupted => return None,
+                    RunEnding::Failed(_) => {}
+                    RunEnding::GivenUp(_) | RunEnding::Interrupted => return None,
                 }
             }
             None

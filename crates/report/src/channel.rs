@@ -15,14 +15,14 @@ const DIGITS: usize = 6;
 #[serde(untagged)]
 pub(crate) enum Channel {
     /// The same value at all frames.
-    Constant(Rounded),
+    Constant(FewDigits),
     /// The value at level 0, the height of a level, and the differences between levels; `null` is a
     /// gap.
     Varying {
         /// Level 0.
         o: f64,
         /// Height of a level.
-        s: Rounded,
+        s: FewDigits,
         /// Differences.
         d: Steps,
     },
@@ -30,7 +30,7 @@ pub(crate) enum Channel {
 
 /// A number with few digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Rounded(pub(crate) f64);
+pub(crate) struct FewDigits(pub(crate) f64);
 
 /// Differences of levels; `None` is a gap.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,14 +62,14 @@ impl Channel {
         let height = (high - low) / LEVELS;
         let has_gaps = values.clone().any(|x| !x.is_finite());
         if low > high {
-            return Self::Constant(Rounded(f64::NAN));
+            return Self::Constant(FewDigits(f64::NAN));
         }
         // A change below the rounding of the numbers themselves counts as no change.
         let flat = height <= f64::EPSILON * low.abs().max(high.abs());
         if flat && !has_gaps {
-            return Self::Constant(Rounded(low));
+            return Self::Constant(FewDigits(low));
         }
-        let height = if flat { 1.0 } else { Rounded(height).value() };
+        let height = if flat { 1.0 } else { FewDigits(height).value() };
         let mut last = 0;
         let steps = values.map(|x| {
             x.is_finite().then(|| {
@@ -82,12 +82,12 @@ impl Channel {
         Self::Varying {
             d: Steps(steps.collect()),
             o: low,
-            s: Rounded(height),
+            s: FewDigits(height),
         }
     }
 }
 
-impl Rounded {
+impl FewDigits {
     /// The number that is written.
     pub(crate) fn value(self) -> f64 {
         if self.0.is_finite() && self.0 != 0.0 {
@@ -98,7 +98,7 @@ impl Rounded {
     }
 }
 
-impl Serialize for Rounded {
+impl Serialize for FewDigits {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let value = self.value();
         // −0 and 3.0 would need more characters.

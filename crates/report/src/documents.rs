@@ -62,7 +62,7 @@ pub const FORMAT: u32 = 2;
 /// A document with its head.
 #[derive(Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct Headed<'d, D> {
+struct DocumentWithHead<'d, D> {
     format: u32,
     /// The version of the program.
     version: &'static str,
@@ -76,7 +76,7 @@ struct Headed<'d, D> {
 /// # Errors
 /// If the writer fails, or if the document is no object.
 pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<()> {
-    let headed = Headed {
+    let headed = DocumentWithHead {
         format: FORMAT,
         version: env!("CARGO_PKG_VERSION"),
         document,
@@ -154,9 +154,9 @@ impl From<&Judgement> for VerdictDocument {
 /// assert_eq!(serde_json::to_string(&masses).unwrap(), r#"{"crank":2.0,"rod":1.0}"#);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Named<T>(pub Vec<(String, T)>);
+pub struct ByName<T>(pub Vec<(String, T)>);
 
-impl<T> Named<T> {
+impl<T> ByName<T> {
     /// Whether there is nothing.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -174,8 +174,8 @@ impl<T> Named<T> {
 /// The value of a name.
 ///
 /// # Panics
-/// If there is no such name; [`Named::get`] returns `None` then.
-impl<T> std::ops::Index<&str> for Named<T> {
+/// If there is no such name; [`ByName::get`] returns `None` then.
+impl<T> std::ops::Index<&str> for ByName<T> {
     type Output = T;
     fn index(&self, name: &str) -> &T {
         match self.get(name) {
@@ -186,7 +186,7 @@ impl<T> std::ops::Index<&str> for Named<T> {
 }
 
 #[cfg(feature = "schema")]
-impl<T: schemars::JsonSchema> schemars::JsonSchema for Named<T> {
+impl<T: schemars::JsonSchema> schemars::JsonSchema for ByName<T> {
     fn schema_name() -> std::borrow::Cow<'static, str> {
         format!("{}ByName", T::schema_name()).into()
     }
@@ -197,7 +197,7 @@ impl<T: schemars::JsonSchema> schemars::JsonSchema for Named<T> {
     }
 }
 
-impl<T: Serialize> Serialize for Named<T> {
+impl<T: Serialize> Serialize for ByName<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(self.0.len()))?;
         for (name, value) in &self.0 {

@@ -29,7 +29,7 @@ use std::thread::sleep;
 use std::time::Duration;
 
 pub use family::Family;
-use made::Made;
+use made::NewDirectories;
 use ours::is_marked;
 pub use ours::{PROVENANCE, is_ours};
 
@@ -141,12 +141,12 @@ fn paths_of(paths: &[PathBuf]) -> String {
 pub struct OutputDirectory {
     path: PathBuf,
     parts: Parts,
-    unfinished: Unfinished,
-    written: Arc<Mutex<Written>>,
+    unfinished: FailurePolicy,
+    written: Arc<Mutex<WrittenFiles>>,
     /// Excludes other processes until the last clone is dropped.
     _lock: Option<Arc<File>>,
     /// The directories that were made for it.
-    made: Arc<Made>,
+    made: Arc<NewDirectories>,
     /// Whether a file could not be written: then files that are not finished are kept.
     has_failed: Arc<AtomicBool>,
 }
@@ -173,7 +173,7 @@ enum Parts {
 
 /// What becomes of files that are not finished after a failure, or when the process is ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Unfinished {
+enum FailurePolicy {
     /// Their whole lines are kept.
     Kept,
     Removed,
@@ -181,14 +181,14 @@ enum Unfinished {
 
 /// What this process has written into a directory.
 #[derive(Debug, Default)]
-struct Written {
+struct WrittenFiles {
     /// Files that were begun, with their names.
     begun: Vec<(OsString, Weak<Mutex<Content>>)>,
     /// Names of files that were written at once.
     finished: Vec<OsString>,
 }
 
-impl Written {
+impl WrittenFiles {
     /// The names of files that this process writes or has written.
     fn names(&self) -> Vec<&str> {
         let begun = self.begun.iter().map(|(name, _)| name);
@@ -215,12 +215,13 @@ impl OutputDirectory {
     /// - [`FileError::Refused`]: it cannot be created, for instance because a file has its name.
     pub fn create(path: impl Into<PathBuf>) -> Result<Self, FileError> {
         let path = path.into();
-        let made = Made::all_of(&path).map_err(FileError::refused("make the directory", &path))?;
+        let made = NewDirectories::all_of(&path)
+            .map_err(FileError::refused("make the directory", &path))?;
         Ok(Self {
             made: Arc::new(made),
             path,
             parts: Parts::Plain,
-            unfinished: Unfinished::Kept,
+            unfinished: FailurePolicy::Kept,
             written: Arc::default(),
             _lock: None,
             has_failed: Arc::default(),
@@ -276,7 +277,7 @@ impl OutputDirectory {
     /// removed, also after a failure.
     #[must_use]
     pub fn whole(mut self) -> Self {
-        self.unfinished = Unfinished::Removed;
+        self.unfinished = FailurePolicy::Removed;
         self
     }
 
@@ -454,7 +455,7 @@ impl OutputDirectory {
         })
     }
 
-    fn abandon_with(&self, last: impl FnOnce(&Written)) -> bool {
+    fn abandon_with(&self, last: impl FnOnce(&WrittenFiles)) -> bool {
         let Some(written) = patiently(&self.written) else {
             return false;
         };
@@ -475,7 +476,7 @@ impl OutputDirectory {
         true
     }
 
-    fn written(&self) -> MutexGuard<'_, Written> {
+    fn written(&self) -> MutexGuard<'_, WrittenFiles> {
         self.written.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -564,7 +565,7 @@ struct Content {
     buffer: Result<BufWriter<File>, io::Error>,
     part: PathBuf,
     path: PathBuf,
-    unfinished: Unfinished,
+    unfinished: FailurePolicy,
     /// Of the directory.
     has_failed: Arc<AtomicBool>,
 }
@@ -648,7 +649,7 @@ impl Drop for Content {
     /// part of it means something.
     fn drop(&mut self) {
         let fails = self.has_failed.load(Ordering::Relaxed) || std::thread::panicking();
-        if fails && self.unfinished == Unfinished::Kept && self.with(Write::flush).is_ok() {
+        if fails && self.unfinished == FailurePolicy::Kept && self.with(Write::flush).is_ok() {
             self.close(ErrorKind::BrokenPipe.into());
         }
         self.remove();
@@ -660,7 +661,7 @@ impl Content {
     fn remove(&mut self) {
         let gone = Err(ErrorKind::BrokenPipe.into());
         let is_open = mem::replace(&mut self.buffer, gone).map(BufWriter::into_parts);
-        if is_open.is_ok() || self.unfinished == Unfinished::Removed {
+        if is_open.is_ok() || self.unfinished == FailurePolicy::Removed {
             drop(is_open);
             // A file that cannot be removed has the name `.part`.
             let _ = fs::remove_file(&self.part);
@@ -681,7 +682,7 @@ impl Content {
     /// Keeps the whole lines under the final name, if the file is still being written and a part
     /// of it means something.
     fn abandon(&mut self) {
-        if self.unfinished == Unfinished::Removed {
+        if self.unfinished == FailurePolicy::Removed {
             self.remove();
         } else if self.with(Write::flush).is_ok() {
             self.close(ErrorKind::BrokenPipe.into());

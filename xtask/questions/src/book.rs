@@ -1,7 +1,7 @@
 //! The tables of options in the book.
 
-use crate::Question;
 use crate::option::QuestionOption;
+use crate::question::Question;
 
 /// The page with a section for each command.
 pub(crate) const PATH: &str = "docs/book/commands.md";

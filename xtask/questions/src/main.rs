@@ -6,61 +6,13 @@
 mod book;
 mod option;
 mod python;
+mod question;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::{env, fs};
 
-use clap::{Command, Subcommand};
-use pfaff::questions::Questions;
-use serde_json::Value;
-
-use option::QuestionOption;
-
-/// A question as it is known from outside.
-struct Question {
-    /// Subcommand and method.
-    name: &'static str,
-    /// What it answers, in a line.
-    about: String,
-    options: Vec<QuestionOption>,
-    /// Names of the scenes that it is asked about.
-    scenes: &'static [&'static str],
-    /// What its files contain, if it has any.
-    files: Option<&'static str>,
-    /// Whether its files are written while the answer is computed.
-    streams: bool,
-    /// JSON schema of the answer.
-    answer: Value,
-}
-
-/// All questions, in the order of the list.
-fn questions() -> Vec<Question> {
-    let mut program = Questions::augment_subcommands(Command::new("pfaff"));
-    // Numbers of values and defaults are known from then on.
-    program.build();
-    let schemas = Questions::schemas().into_iter();
-    let questions = schemas.zip(Questions::FACTS).map(|(schema, facts)| {
-        let command = program.find_subcommand(schema.name);
-        let command = command.expect("each question is a subcommand");
-        let about = command.get_about().map(ToString::to_string);
-        let arguments = command.get_arguments();
-        let arguments = arguments.filter(|argument| argument.get_id() != "help");
-        let options = schema.options.to_value();
-        Question {
-            name: schema.name,
-            about: about.unwrap_or_default(),
-            options: arguments
-                .map(|argument| QuestionOption::new(argument, &options))
-                .collect(),
-            scenes: facts.scenes,
-            files: facts.output.map(|output| output.contents),
-            streams: facts.output.is_some_and(|output| output.is_streamed()),
-            answer: schema.answer.to_value(),
-        }
-    });
-    questions.collect()
-}
+use question::questions;
 
 /// The root of the repository.
 fn root() -> PathBuf {

@@ -2,8 +2,8 @@
 //! a document. Those whose files are written while they are computed are arrays in Python, and
 //! their methods are written by hand.
 
-use crate::Question;
 use crate::option::{Kind, QuestionOption};
+use crate::question::Question;
 
 /// The module.
 pub(crate) const PATH: &str = "python/package/pfaff/_questions.py";

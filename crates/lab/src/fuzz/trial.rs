@@ -78,7 +78,7 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
             return match assembled.analyse(None) {
                 Ok(configuration) => {
                     judged::check(&configuration);
-                    Reach::Judged
+                    Reach::JudgedStart
                 }
                 Err(e) => {
                     named(&e);

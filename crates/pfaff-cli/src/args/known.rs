@@ -38,7 +38,7 @@ impl FromStr for Setting {
 
 /// Other numbers in a scene, and other tolerances of its data.
 #[derive(Args, Clone, Default)]
-pub(crate) struct Known {
+pub(crate) struct SceneOptions {
     #[command(flatten)]
     pub(crate) settings: Settings,
     /// Tolerance of points and lengths of the scene (m, or as 0.1mm), in place of its `tolerance`
@@ -50,8 +50,8 @@ pub(crate) struct Known {
     pub(crate) angle_tolerance: Option<f64>,
 }
 
-impl From<&Known> for Tolerance {
-    fn from(known: &Known) -> Self {
+impl From<&SceneOptions> for Tolerance {
+    fn from(known: &SceneOptions) -> Self {
         Self {
             length: known.tolerance,
             angle: known.angle_tolerance,

@@ -21,7 +21,7 @@ use crate::error::StudyError;
 use crate::question::{Answer, Control, Ending, Progress, Question};
 use crate::refusal::Refusal;
 use crate::run_options::RunOptions;
-use crate::start::{Judged, Start};
+use crate::start::{JudgedStart, Start};
 use crate::study::Study;
 use crate::words::Block;
 
@@ -181,9 +181,9 @@ impl Question for Analyze {
             }
         };
         match judged {
-            Judged::Moves(study) => self.of_study(of, (judged, study), control),
+            JudgedStart::Moves(study) => self.of_study(of, (judged, study), control),
             // A mechanism that cannot move can still be judged at the start.
-            Judged::Stands(stands) if self.at_time == 0.0 && self.along.is_none() => {
+            JudgedStart::Stands(stands) if self.at_time == 0.0 && self.along.is_none() => {
                 let start = of
                     .configuration(judged, |_| ())
                     .map_err(|e| of.refusal(e))?;
@@ -194,7 +194,7 @@ impl Question for Analyze {
                     hints: document::hints(&start, control)?,
                 })
             }
-            Judged::Stands(stands) => Err(stands.refusal.clone()),
+            JudgedStart::Stands(stands) => Err(stands.refusal.clone()),
         }
     }
 }
@@ -203,7 +203,7 @@ impl Analyze {
     fn of_study(
         &self,
         of: &Start<'_>,
-        (judged, study): (&Judged, &Study),
+        (judged, study): (&JudgedStart, &Study),
         control: &Control<'_>,
     ) -> Result<AnalyzeAnswer, Refusal> {
         let description = &study.scene.description;
@@ -259,8 +259,8 @@ fn judge(
     }
     let found = study.verdicts_along_motion(t_end, |progress| {
         let (what, t) = match progress {
-            along_motion::Progress::Moving(t) => ("moving", t),
-            along_motion::Progress::Judging(t) => ("judging", t),
+            along_motion::MotionProgress::Moving(t) => ("moving", t),
+            along_motion::MotionProgress::Judging(t) => ("judging", t),
         };
         (control.progress)(Progress::Motion(what, t, end));
     });

@@ -12,7 +12,7 @@ use crate::configuration::ConfigurationAnalysis;
 use crate::error::StudyError;
 use crate::question::{Control, Question};
 use crate::refusal::Refusal;
-use crate::start::{Judged, Start};
+use crate::start::{JudgedStart, Start};
 
 /// Read and assemble only: report every error of the file, with its place
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -34,7 +34,7 @@ impl Question for Check {
     fn answer(&self, of: &Start<'_>, control: &Control<'_>) -> Result<CheckAnswer, Refusal> {
         let judged = of.judged(control)?;
         let answered = match judged.as_ref() {
-            Judged::Moves(study) => study.check_drives().and_then(|()| {
+            JudgedStart::Moves(study) => study.check_drives().and_then(|()| {
                 let start = of.configuration(&judged, |_| ())?;
                 let prepared = &study.prepared;
                 let answer = CheckAnswer::new(judged.parts(), &prepared.assembly.correction);
@@ -57,7 +57,7 @@ impl Question for Check {
                 Ok(answer)
             }),
             // The error concerns the motion only, so the start can still be analysed.
-            Judged::Stands(stands) => {
+            JudgedStart::Stands(stands) => {
                 let mechanism = &stands.assembled.mechanism;
                 let (described, _) = mechanism.described_state();
                 let correction = mechanism.difference_of(&stands.kept.state.q, &described);

@@ -10,7 +10,7 @@ pub use answer::{DiffAnswer, DiffBody, DiffChange, DiffMotion, DiffReaction, Dif
 
 use crate::question::{Answer, Control, Question};
 use crate::refusal::Refusal;
-use crate::start::{Judged, Start, document_of};
+use crate::start::{JudgedStart, Start, document_of};
 use crate::words::Block;
 
 /// Compare two scenes: ranks, verdicts, dependencies, motion
@@ -48,7 +48,7 @@ impl Answer for DiffAnswer {
 }
 
 /// Compares the motions, or says why they are not compared.
-fn motion(names: [&str; 2], judged: [&Judged; 2]) -> Result<DiffMotion, String> {
+fn motion(names: [&str; 2], judged: [&JudgedStart; 2]) -> Result<DiffMotion, String> {
     for (name, judged) in names.iter().zip(judged) {
         if judged.parts().0.simulate.is_none() {
             return Err(format!("`{name}` has no [simulate]"));

@@ -5,7 +5,7 @@ mod words;
 
 use dynamics::equilibrium::EquilibriumOptions;
 use model::System;
-use report::documents::Named;
+use report::documents::ByName;
 use report::{Family, PROVENANCE};
 use serde::Deserialize;
 
@@ -84,7 +84,7 @@ impl Answer for EquilibriumAnswer {
 }
 
 /// The reactions at the start of a study.
-fn reactions_at_rest(there: &Study) -> Result<Named<ReactionAtRest>, StudyError> {
+fn reactions_at_rest(there: &Study) -> Result<ByName<ReactionAtRest>, StudyError> {
     let configuration = there.analyse(0.0, None)?;
     Ok(ReactionAtRest::all(
         &configuration.analysis.reactions,

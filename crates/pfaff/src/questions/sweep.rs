@@ -16,7 +16,7 @@ use crate::question::{Answer, Control, Ending, Output, Progress, Question, Writi
 use crate::refusal::Refusal;
 use crate::start::Start;
 use crate::sweep::{
-    self, Axis, Merged, Shard, SweepError, SweepProgress, SweepSettings, Tables, end_attempts,
+    self, Axis, MergedSweep, Shard, SweepError, SweepProgress, SweepSettings, Tables, end_attempts,
     merge,
 };
 use crate::words::Block;
@@ -91,7 +91,7 @@ impl Question for Sweep {
                 "a sweep needs a scene, or directories after --merge".to_owned(),
             )),
             None => {
-                let Merged { document, shards } = merge(&self.merge, directory.path())?;
+                let MergedSweep { document, shards } = merge(&self.merge, directory.path())?;
                 let end = if document.partial {
                     SweepEnd::Missing { shards }
                 } else {

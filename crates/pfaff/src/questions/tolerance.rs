@@ -13,7 +13,8 @@ use crate::question::{Answer, Control, Ending, Output, Place, Progress, Question
 use crate::refusal::{Refusal, json};
 use crate::start::Start;
 use crate::tolerance::{
-    SAMPLES, ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, Variation, Varied,
+    SAMPLES, ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, Variation,
+    VariedText,
 };
 use crate::words::Block;
 
@@ -83,7 +84,7 @@ impl Question for Tolerance {
         let assembled = of.assembled(control)?;
         let vary = (!self.vary.is_empty()).then(|| {
             let text = (of.name.as_str(), of.text.as_str());
-            Varied::new(text, of.registry, of.tolerance, self.vary.clone())
+            VariedText::new(text, of.registry, of.tolerance, self.vary.clone())
         });
         let vary = vary.transpose().map_err(refused)?;
         let study = ToleranceStudy::varying(assembled, self.at_time, vary).map_err(refused)?;

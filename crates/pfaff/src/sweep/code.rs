@@ -8,7 +8,7 @@ use dynamics::{CodeMismatch, MotionOptions, PreparedMechanism, SceneCode};
 use model::Registry;
 use scene_codegen::{CodeError, LANES, NotAnInput, Tape};
 
-use super::run::Described;
+use super::run::UnvariedScene;
 use crate::study::Study;
 
 /// Sweeps of fewer runs are interpreted: making the code takes as long as 10 to 30 of them.
@@ -28,7 +28,7 @@ impl SweepCode {
     pub(super) fn new(
         (name, text): (&str, &str),
         registry: &Registry,
-        described: Option<&Described>,
+        described: Option<&UnvariedScene>,
         (keys, runs): (&[String], u64),
     ) -> Result<Self, String> {
         if runs < FEW {
@@ -72,7 +72,7 @@ impl SweepCode {
     pub(super) fn of_run(
         &self,
         study: &mut Study,
-        described: Option<&Described>,
+        described: Option<&UnvariedScene>,
         options: &MotionOptions,
     ) -> Option<Tape> {
         let prepared = study.prepared.clone();

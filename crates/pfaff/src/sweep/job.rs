@@ -7,7 +7,7 @@ use dynamics::{SceneCode, Stop};
 use report::{OutputDirectory, TrajectoryTable};
 
 use super::SweepError;
-use super::run::{Begun, Ended};
+use super::run::{MadeRun, PreparedRun};
 
 /// What is kept of runs besides their rows.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +21,7 @@ pub(super) enum Keep<'d> {
 /// A run that has begun, with what it writes.
 pub(super) struct Job {
     pub(super) run: u64,
-    pub(super) begun: Begun,
+    pub(super) begun: PreparedRun,
     /// Where its trajectory goes.
     folder: Option<OutputDirectory>,
 }
@@ -30,7 +30,7 @@ impl Job {
     /// A run of so many with what it writes.
     pub(super) fn new(
         run: u64,
-        begun: Begun,
+        begun: PreparedRun,
         keep: Keep<'_>,
         runs: u64,
     ) -> Result<Self, SweepError> {
@@ -51,9 +51,9 @@ impl Job {
         mut self,
         evaluator: Option<&dyn SceneCode>,
         stop: &Stop<'_>,
-    ) -> Result<Option<Ended>, SweepError> {
+    ) -> Result<Option<MadeRun>, SweepError> {
         let ended = self.attempt(evaluator, stop)?;
-        if ended.as_ref().is_some_and(Ended::has_lost_its_way) {
+        if ended.as_ref().is_some_and(MadeRun::has_lost_its_way) {
             // The interpreter passes some places from where it comes, and not from where code
             // leaves it.
             self.begun.leave_code();
@@ -66,7 +66,7 @@ impl Job {
         &self,
         evaluator: Option<&dyn SceneCode>,
         stop: &Stop<'_>,
-    ) -> Result<Option<Ended>, SweepError> {
+    ) -> Result<Option<MadeRun>, SweepError> {
         if stop() {
             return Ok(None);
         }

@@ -15,13 +15,13 @@ use scene_codegen::{LANES, Tape, TapeCall};
 
 use super::SweepError;
 use super::job::Job;
-use super::run::Ended;
+use super::run::MadeRun;
 
 /// Size of the stack of a run (bytes); memory is taken by what is used of it.
 const STACK: usize = 2 << 20;
 
 /// How a run has ended: `None` if it was interrupted.
-type Outcome = Result<Option<Ended>, SweepError>;
+type Outcome = Result<Option<MadeRun>, SweepError>;
 
 /// What a run waits for.
 struct Wait {

@@ -19,7 +19,7 @@ use crate::error::StudyError;
 use crate::study::Study;
 
 /// A run that can begin: assembled, and analysed at its start.
-pub(super) struct Begun {
+pub(super) struct PreparedRun {
     pub(super) study: Study,
     pub(super) options: MotionOptions,
     pub(super) analysis: Arc<Analysis>,
@@ -32,12 +32,12 @@ pub(super) struct Begun {
 }
 
 /// The scene without changes, whose decisions serve all runs with the same constraints.
-pub(super) struct Described {
+pub(super) struct UnvariedScene {
     study: Study,
     pub(super) analysis: Arc<Analysis>,
 }
 
-impl Described {
+impl UnvariedScene {
     /// `None` if it cannot be analysed.
     pub(super) fn new(study: Study) -> Option<Self> {
         let PreparedMechanism {
@@ -66,21 +66,21 @@ impl Described {
 }
 
 /// How a run ended: what its row has, and the reason if it stopped.
-pub(super) struct Ended {
+pub(super) struct MadeRun {
     pub(super) motion: SweepMotion,
     pub(super) error: Option<StudyError>,
     /// Whether it has left generated code on the way.
     left_code: bool,
 }
 
-impl Ended {
+impl MadeRun {
     /// Whether it stopped after it had left generated code.
     pub(super) fn has_lost_its_way(&self) -> bool {
         self.error.is_some() && self.left_code
     }
 }
 
-impl Begun {
+impl PreparedRun {
     /// Interprets it from its start on.
     pub(super) fn leave_code(&mut self) {
         self.study.prepared = self.study.prepared.clone().without_code();
@@ -94,7 +94,7 @@ impl Begun {
         evaluator: Option<&dyn SceneCode>,
         stop: &Stop<'_>,
         mut each: impl FnMut(&Sample<'_, '_>) -> ControlFlow<()>,
-    ) -> Ended {
+    ) -> MadeRun {
         let mut watch = Watch::new(self);
         let wanted = OutputRequest {
             rows: Rows::Every,
@@ -120,7 +120,7 @@ impl Begun {
             Err(error) => (Summary::default(), Some(error.into())),
         };
         let mut events = summary.events.iter();
-        Ended {
+        MadeRun {
             motion: watch.motion(&summary),
             error,
             left_code: events.any(|event| event.kind == EventKind::CodeLeft),
@@ -135,7 +135,7 @@ fn is_of_motion(event: &&Event) -> bool {
 
 /// Values kept from the rows of a run.
 struct Watch<'s> {
-    begun: &'s Begun,
+    begun: &'s PreparedRun,
     /// Time of the last state (s).
     t_state: f64,
     /// The last coordinates and velocities; none before the first row.
@@ -169,7 +169,7 @@ impl Largest {
 }
 
 impl<'s> Watch<'s> {
-    fn new(begun: &'s Begun) -> Self {
+    fn new(begun: &'s PreparedRun) -> Self {
         Self {
             begun,
             t_state: f64::NAN,
@@ -252,7 +252,7 @@ impl<'s> Watch<'s> {
     }
 
     fn motion(self, summary: &Summary) -> SweepMotion {
-        let Begun {
+        let PreparedRun {
             study,
             analysis,
             fragile,

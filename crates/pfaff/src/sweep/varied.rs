@@ -14,7 +14,7 @@ use solvability::analysis::analyse_decided;
 use super::SweepError;
 use super::axis::{Axis, Grid};
 use super::code::SweepCode;
-use super::run::{Begun, Described, Ended};
+use super::run::{MadeRun, PreparedRun, UnvariedScene};
 use crate::assembled::AssembledScene;
 use crate::error::StudyError;
 use crate::run_options::RunOptions;
@@ -57,7 +57,7 @@ pub struct Sweep<'r> {
     /// The text of the scene.
     text: String,
     /// The scene without changes, prepared when the first run begins.
-    pub(super) described: OnceLock<Option<Described>>,
+    pub(super) described: OnceLock<Option<UnvariedScene>>,
     /// The code of its runs, or why they are interpreted; made when the first run begins.
     pub(super) code: OnceLock<Result<SweepCode, String>>,
 }
@@ -180,10 +180,10 @@ impl<'r> Sweep<'r> {
     }
 
     /// The scene without changes, if it can be analysed.
-    pub(super) fn described(&self) -> Option<&Described> {
+    pub(super) fn described(&self) -> Option<&UnvariedScene> {
         let make = || {
             let assembled = self.assembled(&self.text).ok()?;
-            Described::new(assembled.prepare(&RunOptions::default()).ok()?)
+            UnvariedScene::new(assembled.prepare(&RunOptions::default()).ok()?)
         };
         self.described.get_or_init(make).as_ref()
     }
@@ -266,13 +266,13 @@ impl<'r> Sweep<'r> {
     }
 
     /// Assembles a run (from 1).
-    pub(super) fn begin(&self, run: u64) -> Result<Begun, StudyError> {
+    pub(super) fn begin(&self, run: u64) -> Result<PreparedRun, StudyError> {
         let written = self.grid.written((run - 1) as usize);
         let written: Vec<&str> = written.iter().map(String::as_str).collect();
         let text = self.template.with_expressions(&written);
         let assembled = self.assembled(&text)?;
         let described = self.described();
-        let other = described.map(Described::prepared);
+        let other = described.map(UnvariedScene::prepared);
         let mut study = assembled.prepare_after(&RunOptions::default(), other)?;
         let options = study.options.clone().ok_or(StudyError::NoEnd)?;
         options.check()?;
@@ -294,7 +294,7 @@ impl<'r> Sweep<'r> {
         let code = self
             .code()
             .and_then(|code| code.of_run(&mut study, described, &options));
-        Ok(Begun {
+        Ok(PreparedRun {
             study,
             options,
             analysis,
@@ -305,7 +305,7 @@ impl<'r> Sweep<'r> {
     }
 
     /// The row of a run that has begun.
-    pub(super) fn row_of(&self, run: u64, Ended { motion, error, .. }: Ended) -> SweepRow {
+    pub(super) fn row_of(&self, run: u64, MadeRun { motion, error, .. }: MadeRun) -> SweepRow {
         match error {
             // The run has no state.
             Some(error) if motion.t_state.is_nan() => self.refused(run, &error),

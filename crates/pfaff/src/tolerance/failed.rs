@@ -4,14 +4,14 @@ use std::fmt;
 
 /// Why a sample could not be assembled.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Failed {
+pub struct SampleFailure {
     /// The reason, the same words for all samples with it.
     pub reason: &'static str,
     /// This sample in particular.
     pub detail: String,
 }
 
-impl Failed {
+impl SampleFailure {
     pub(super) fn new(reason: &'static str, detail: impl fmt::Display) -> Self {
         Self {
             reason,

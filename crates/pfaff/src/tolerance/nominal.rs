@@ -15,7 +15,7 @@ use crate::study::Study;
 
 /// A datum that is displaced.
 #[derive(Clone, Debug)]
-pub(super) struct Displaced {
+pub(super) struct DisplacedDatum {
     pub(super) block: DataBlock,
     /// By how much at most (in its unit).
     pub(super) tolerance: f64,
@@ -57,7 +57,7 @@ pub(super) struct Nominal {
     /// Columns of C along which the start keeps positions.
     pub(super) kept_columns: Vec<usize>,
     pub(super) size: f64,
-    pub(super) data: Vec<Displaced>,
+    pub(super) data: Vec<DisplacedDatum>,
     pub(super) reading: Reading,
     pub(super) rank: usize,
     /// Rows of C that are kept.
@@ -211,7 +211,7 @@ fn lower_rank(
 }
 
 /// The data with a stated tolerance, each with the stream of its random numbers.
-pub(super) fn displaced(mechanism: &Mechanism, blocks: Vec<DataBlock>) -> Vec<Displaced> {
+pub(super) fn displaced(mechanism: &Mechanism, blocks: Vec<DataBlock>) -> Vec<DisplacedDatum> {
     let layout = mechanism.layout();
     let own_stream = |block: &DataBlock| block.numbers.start as u64;
     let driven: Vec<Option<usize>> = layout
@@ -231,7 +231,7 @@ pub(super) fn displaced(mechanism: &Mechanism, blocks: Vec<DataBlock>) -> Vec<Di
         .collect();
     let all = blocks.iter().zip(streams);
     all.filter_map(|(block, stream)| {
-        Some(Displaced {
+        Some(DisplacedDatum {
             tolerance: block.tolerance?,
             block: block.clone(),
             stream,

@@ -8,7 +8,7 @@ use solvability::Configuration;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// The named component of the definition.
-    Named,
+    ByName,
     /// A component in ground axes, as index of those of the space.
     Component(usize),
     /// The size of the force.
@@ -67,7 +67,7 @@ impl Quantity {
         if let Some(name) = group.spec.component {
             // A drive of an angle has a torque only.
             let unit = if forces > 0 { "N" } else { "N·m" };
-            all.push(quantity(Kind::Named, name, unit));
+            all.push(quantity(Kind::ByName, name, unit));
         }
         if forces > 1 {
             all.push(quantity(Kind::Force, "|F|", "N"));
@@ -90,7 +90,7 @@ impl Quantity {
     pub(super) fn of_reaction(&self, space: SpaceKind, reaction: &Reaction) -> f64 {
         let mut components = reaction.components(space);
         match self.kind {
-            Kind::Named => reaction.component.unwrap_or(f64::NAN),
+            Kind::ByName => reaction.component.unwrap_or(f64::NAN),
             Kind::Component(c) => components.nth(c).unwrap_or(f64::NAN),
             Kind::Force => norm(&reaction.force),
             Kind::Torque => norm(&reaction.torque),
@@ -133,7 +133,7 @@ impl Quantity {
                 .collect()
         };
         match self.kind {
-            Kind::Named | Kind::Component(_) => vec![self.name],
+            Kind::ByName | Kind::Component(_) => vec![self.name],
             Kind::Force => among(space.forces()),
             Kind::Torque => among(space.torques()),
         }

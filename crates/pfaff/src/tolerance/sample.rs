@@ -13,11 +13,11 @@ use rank::{RankDecision, RankStatus};
 use solvability::{Configuration, Equations, RowTerms};
 
 use super::draw::Stream;
-use super::failed::Failed;
+use super::failed::SampleFailure;
 use super::limits::SHARED;
-use super::nominal::{Base, Displaced, Nominal};
+use super::nominal::{Base, DisplacedDatum, Nominal};
 use super::quantity::Quantity;
-use super::vary::Varied;
+use super::vary::VariedText;
 
 /// A pose that is farther from the described one than this share of the size of the mechanism, or
 /// than this angle (rad), is another assembly of the same parts.
@@ -35,8 +35,8 @@ const STILL: f64 = 1e3;
 /// The reason of samples whose rows contradict each other, or nearly so.
 const NO_POSE: &str = "there is no pose near the described one on which the rows hold";
 
-fn unassembled(e: linalg::SaddleError) -> Failed {
-    Failed::new(NO_POSE, e)
+fn unassembled(e: linalg::SaddleError) -> SampleFailure {
+    SampleFailure::new(NO_POSE, e)
 }
 
 /// Velocities satisfy rows that they are not made for to this share of the fastest one.
@@ -48,14 +48,14 @@ pub struct Sample {
     /// Its number, from 1.
     pub number: u64,
     /// What was found, or why it could not be assembled.
-    pub outcome: Result<Assembled, Failed>,
+    pub outcome: Result<AssembledSample, SampleFailure>,
     /// Where varied numbers are in their intervals, from −1 to 1.
     pub varied: Vec<f64>,
 }
 
 /// A sample that was assembled.
 #[derive(Clone, Debug)]
-pub struct Assembled {
+pub struct AssembledSample {
     /// Rank of all rows with exact numbers; `None` if it is undecided.
     pub rank: Option<usize>,
     /// The verdict on each joint and drive with exact numbers.
@@ -79,7 +79,7 @@ pub struct Assembled {
 
 impl Nominal {
     /// Makes a sample; the result depends on the seed and the number only.
-    pub(super) fn sample(&self, vary: Option<&Varied<'_>>, seed: u64, number: u64) -> Sample {
+    pub(super) fn sample(&self, vary: Option<&VariedText<'_>>, seed: u64, number: u64) -> Sample {
         let shares = vary
             .map(|vary| vary.shares(seed, number))
             .unwrap_or_default();
@@ -107,7 +107,7 @@ impl Nominal {
         &self,
         mechanism: &Mechanism,
         base: &Base,
-    ) -> Result<Assembled, Failed> {
+    ) -> Result<AssembledSample, SampleFailure> {
         let q = self.pose_of(mechanism, base)?;
         let mut s = mechanism.scratch();
         mechanism.pose(self.t, &q, &mut s);
@@ -119,7 +119,7 @@ impl Nominal {
         // What redundant rows miss is no error of C, which is known to rounding here.
         s.phi.fill(0.0);
         let decision = solvability::decide(mechanism, &s, &q)
-            .map_err(|e| Failed::new("the rank cannot be decided", e))?;
+            .map_err(|e| SampleFailure::new("the rank cannot be decided", e))?;
         let (verdicts, exact) =
             self.with_exact_numbers(mechanism, (&s, &q, &v), &decision, &lambda);
         let of_kept = self.on_kept_rows(mechanism, &s, &q);
@@ -131,7 +131,7 @@ impl Nominal {
         let kept = kept.collect();
         let frames = mechanism.frames();
         let observed = frames.observed();
-        Ok(Assembled {
+        Ok(AssembledSample {
             rank: (decision.status == RankStatus::Decided).then_some(decision.rank),
             verdicts,
             of_kept,
@@ -149,10 +149,10 @@ impl Nominal {
     }
 
     /// The pose nearest to the described one on the kept rows.
-    fn pose_of(&self, mechanism: &Mechanism, base: &Base) -> Result<Vec<f64>, Failed> {
+    fn pose_of(&self, mechanism: &Mechanism, base: &Base) -> Result<Vec<f64>, SampleFailure> {
         let q = self.closest(mechanism, &base.q)?;
         requirement(mechanism, &q)
-            .map_err(|e| Failed::new("a requirement of a joint does not hold", e))?;
+            .map_err(|e| SampleFailure::new("a requirement of a joint does not hold", e))?;
         let space = mechanism.space();
         let moved = mechanism.difference_of(&q, &self.base.q);
         let share = |j: usize| moved[j].abs() / space.unit(j, self.size);
@@ -161,7 +161,7 @@ impl Nominal {
             return Ok(q);
         }
         let (body, coordinate) = mechanism.coordinate(farthest);
-        Err(Failed::new(
+        Err(SampleFailure::new(
             "the nearest pose is far from the described one",
             format!(
                 "{coordinate} of `{body}` differs by {:.1e}",
@@ -173,7 +173,7 @@ impl Nominal {
     /// The configuration on the kept rows that is closest to the described one, in lengths, with
     /// angles times the size: `q = q₀ + argmin ‖δ‖` under the rows linearised at q, repeated.
     /// Coordinates that the start keeps do not move.
-    fn closest(&self, mechanism: &Mechanism, base: &[f64]) -> Result<Vec<f64>, Failed> {
+    fn closest(&self, mechanism: &Mechanism, base: &[f64]) -> Result<Vec<f64>, SampleFailure> {
         let (space, rows) = (mechanism.space(), &self.position_kept);
         let n = mechanism.layout().n_v;
         let square = self.size * self.size;
@@ -232,7 +232,7 @@ impl Nominal {
                 s.phi[i].abs()
             )
         });
-        Err(Failed::new(NO_POSE, detail))
+        Err(SampleFailure::new(NO_POSE, detail))
     }
 
     /// Velocities nearest to the described ones on the kept rows, in the mass metric, and the
@@ -242,11 +242,11 @@ impl Nominal {
         mechanism: &Mechanism,
         base: &Base,
         s: &mut Scratch,
-    ) -> Result<Instant, Failed> {
+    ) -> Result<Instant, SampleFailure> {
         let c = mechanism.layout().dense(s);
         let kept = &self.kept;
         let failed = |e: linalg::SaddleError| {
-            Failed::new("masses and rows do not determine the accelerations", e)
+            SampleFailure::new("masses and rows do not determine the accelerations", e)
         };
         let (n, r) = (c.ncols(), kept.len());
         let mut saddle = KeptRowSaddle::new(n, r).map_err(failed)?;
@@ -276,7 +276,10 @@ impl Nominal {
             lambda[row] = value;
         }
         if lambda.iter().chain(&a).any(|x| !x.is_finite()) {
-            return Err(Failed::new("forces are not finite", "their sizes overflow"));
+            return Err(SampleFailure::new(
+                "forces are not finite",
+                "their sizes overflow",
+            ));
         }
         Ok(Instant { v, lambda })
     }
@@ -403,7 +406,7 @@ impl Nominal {
 /// The numbers of the constraints of a sample.
 fn displaced_numbers(
     mechanism: &Mechanism,
-    data: &[Displaced],
+    data: &[DisplacedDatum],
     seed: u64,
     number: u64,
 ) -> Vec<f64> {

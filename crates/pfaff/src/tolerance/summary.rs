@@ -5,8 +5,8 @@ use std::cmp::Reverse;
 use model::words::rounded;
 use model::{DataUnit, System};
 use report::documents::{
-    DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument, MeasureRangeDocument,
-    MovedDocument, Named, QuantityRangeDocument, RangeDocument, RankCountDocument,
+    ByName, DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument,
+    MeasureRangeDocument, MovedDocument, QuantityRangeDocument, RangeDocument, RankCountDocument,
     ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
     distance,
 };
@@ -14,7 +14,7 @@ use report::documents::{
 use super::ToleranceOptions;
 use super::nominal::{Nominal, Reading};
 use super::quantity::{Quantity, worse};
-use super::sample::{Assembled, Sample};
+use super::sample::{AssembledSample, Sample};
 use super::vary::Variation;
 
 /// A number below this share of the largest one of its kind is nothing to relate a range to.
@@ -30,7 +30,7 @@ impl Nominal {
         vary: &[Variation],
         samples: &[Sample],
     ) -> ToleranceDocument {
-        let good: Vec<(u64, &Assembled)> = (samples.iter())
+        let good: Vec<(u64, &AssembledSample)> = (samples.iter())
             .filter_map(|s| Some((s.number, s.outcome.as_ref().ok()?)))
             .collect();
         let described = self.assembled(&self.mechanism, &self.base).ok();
@@ -110,7 +110,7 @@ impl Nominal {
         }
     }
 
-    fn ranks(&self, good: &[(u64, &Assembled)]) -> Vec<RankCountDocument> {
+    fn ranks(&self, good: &[(u64, &AssembledSample)]) -> Vec<RankCountDocument> {
         let layout = self.mechanism.layout();
         let mut ranks: Vec<RankCountDocument> = Vec::new();
         for rank in good.iter().filter_map(|(_, s)| s.rank) {
@@ -128,7 +128,7 @@ impl Nominal {
         ranks
     }
 
-    fn misfits(&self, good: &[(u64, &Assembled)]) -> Vec<RowMisfitDocument> {
+    fn misfits(&self, good: &[(u64, &AssembledSample)]) -> Vec<RowMisfitDocument> {
         let layout = self.mechanism.layout();
         let of_row = |(k, &row): (usize, &usize)| {
             let mut worst: Option<(u64, f64)> = None;
@@ -163,8 +163,8 @@ impl Nominal {
 
     fn reactions(
         &self,
-        good: &[(u64, &Assembled)],
-        described: Option<&Assembled>,
+        good: &[(u64, &AssembledSample)],
+        described: Option<&AssembledSample>,
         within: &str,
     ) -> Vec<ReactionRangeDocument> {
         let first = |id: usize| self.quantities.iter().position(|q| q.id.0 == id);
@@ -203,7 +203,7 @@ impl Nominal {
                     let over = around.max(NOTHING * scale(value.unit));
                     (over > 0.0).then(|| range.width() / over)
                 });
-                let told = Told {
+                let told = RangeContext {
                     name: &reaction.name,
                     verdict: reaction.verdict,
                     samples: good.len() as u64,
@@ -224,7 +224,7 @@ impl Nominal {
     }
 
     /// The value of a number in a sample, NaN if the sample does not determine it.
-    fn value(&self, k: usize, sample: &Assembled) -> f64 {
+    fn value(&self, k: usize, sample: &AssembledSample) -> f64 {
         if self.is_unique(k) {
             sample.kept[k]
         } else {
@@ -237,13 +237,13 @@ impl Nominal {
         &self,
         k: usize,
         quantity: &Quantity,
-        (good, described): (&[(u64, &Assembled)], Option<&Assembled>),
+        (good, described): (&[(u64, &AssembledSample)], Option<&AssembledSample>),
         rounding: f64,
     ) -> QuantityRangeDocument {
         let unique = self.is_unique(k);
         // A sum that cancels is zero, not its rounding.
         let clean = |x: f64| if x.abs() <= rounding { 0.0 } else { x };
-        let value = |s: &Assembled| clean(self.value(k, s));
+        let value = |s: &AssembledSample| clean(self.value(k, s));
         let told = described.filter(|_| unique || !self.is_decided());
         let told = told.map(value).filter(|x| x.is_finite());
         let values: Vec<f64> = good.iter().map(|(_, s)| value(s)).collect();
@@ -283,7 +283,7 @@ impl Nominal {
         }
     }
 
-    fn bodies(&self, good: &[(u64, &Assembled)]) -> Named<MovedDocument> {
+    fn bodies(&self, good: &[(u64, &AssembledSample)]) -> ByName<MovedDocument> {
         let names = self.mechanism.bodies().iter().map(|b| b.name.clone());
         let of_body = |(k, name): (usize, String)| {
             let mut moved = MovedDocument {
@@ -299,16 +299,16 @@ impl Nominal {
             }
             (name, moved)
         };
-        Named(names.enumerate().map(of_body).collect())
+        ByName(names.enumerate().map(of_body).collect())
     }
 
     fn markers(
         &self,
-        good: &[(u64, &Assembled)],
-        described: Option<&Assembled>,
-    ) -> Named<MarkerRangeDocument> {
+        good: &[(u64, &AssembledSample)],
+        described: Option<&AssembledSample>,
+    ) -> ByName<MarkerRangeDocument> {
         let Some(described) = described.filter(|_| !good.is_empty()) else {
-            return Named(Vec::new());
+            return ByName(Vec::new());
         };
         let axes = self.mechanism.space().n_translations();
         let markers = self.mechanism.frames().observed().markers.iter();
@@ -333,14 +333,14 @@ impl Nominal {
             };
             (marker.name.clone(), range)
         };
-        Named(markers.enumerate().map(of_marker).collect())
+        ByName(markers.enumerate().map(of_marker).collect())
     }
 
     fn measures(
         &self,
-        good: &[(u64, &Assembled)],
-        described: Option<&Assembled>,
-    ) -> Named<MeasureRangeDocument> {
+        good: &[(u64, &AssembledSample)],
+        described: Option<&AssembledSample>,
+    ) -> ByName<MeasureRangeDocument> {
         let measures = self.mechanism.frames().observed().measures.iter();
         let of_measure = |(k, measure): (usize, &model::Measure)| {
             let values = good.iter().map(|(_, s)| s.measures[k]);
@@ -348,7 +348,7 @@ impl Nominal {
             let unit = measure.kind.unit();
             Some((measure.name.clone(), MeasureRangeDocument { unit, range }))
         };
-        Named(measures.enumerate().filter_map(of_measure).collect())
+        ByName(measures.enumerate().filter_map(of_measure).collect())
     }
 
     /// The columns of the table of samples.
@@ -464,14 +464,14 @@ const SHARED_IN_SAMPLES: &str =
 const CANNOT_MOVE: &str = "rigid and without play or slip the mechanism could not move as it does";
 
 /// What the sentence about a reaction needs besides its range.
-struct Told<'a> {
+struct RangeContext<'a> {
     name: &'a str,
     verdict: &'a str,
     samples: u64,
     within: &'a str,
 }
 
-impl Told<'_> {
+impl RangeContext<'_> {
     /// The range of the reaction in words.
     fn sentence(&self, first: Option<&QuantityRangeDocument>) -> String {
         let (name, samples, within) = (self.name, self.samples, self.within);

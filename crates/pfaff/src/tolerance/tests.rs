@@ -3,7 +3,7 @@
 use model::{Registry, Tolerance};
 use report::documents::{RangeDocument, ReactionRangeDocument, ToleranceDocument};
 
-use super::{ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, Varied};
+use super::{ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, VariedText};
 use crate::assembled::AssembledScene;
 
 fn study(text: &str) -> ToleranceStudy<'static> {
@@ -430,7 +430,7 @@ fn varied_numbers_move_reactions_by_their_interval() {
     let varied = |text: &str, vary: &str| {
         let scene = AssembledScene::read("beam.toml", text, &registry).expect("it is read");
         let list = vec![vary.parse().expect("a variation")];
-        let vary = Varied::new(("beam.toml", text), &registry, Tolerance::default(), list)?;
+        let vary = VariedText::new(("beam.toml", text), &registry, Tolerance::default(), list)?;
         ToleranceStudy::varying(scene, 0.0, Some(vary))
     };
     let text = beam("", "");

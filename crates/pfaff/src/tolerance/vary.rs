@@ -9,8 +9,8 @@ use serde::Deserialize;
 
 use super::draw::Stream;
 use super::error::ToleranceError;
-use super::failed::Failed;
-use super::nominal::{Base, Displaced, Nominal, displaced};
+use super::failed::SampleFailure;
+use super::nominal::{Base, DisplacedDatum, Nominal, displaced};
 use crate::assembled::AssembledScene;
 
 /// Streams of random numbers from here on belong to varied numbers.
@@ -111,7 +111,7 @@ impl FromStr for Variation {
 }
 
 /// The text of a scene in which numbers vary.
-pub struct Varied<'r> {
+pub struct VariedText<'r> {
     name: String,
     template: Template,
     pub(super) list: Vec<Variation>,
@@ -120,7 +120,7 @@ pub struct Varied<'r> {
     registry: &'r Registry,
 }
 
-impl<'r> Varied<'r> {
+impl<'r> VariedText<'r> {
     /// Finds the numbers in a text; `name` is the file name in messages, `tolerance` goes before
     /// that of the scene.
     ///
@@ -185,8 +185,8 @@ impl<'r> Varied<'r> {
         &self,
         nominal: &Nominal,
         shares: &[f64],
-    ) -> Result<(Mechanism, Base, Vec<Displaced>), Failed> {
-        let failed = |detail: String| Failed::new(UNREADABLE, detail);
+    ) -> Result<(Mechanism, Base, Vec<DisplacedDatum>), SampleFailure> {
+        let failed = |detail: String| SampleFailure::new(UNREADABLE, detail);
         let (mechanism, q) = self.mechanism(shares).map_err(failed)?;
         if mechanism.layout().labels != nominal.mechanism.layout().labels {
             return Err(failed("it has other rows".to_owned()));

@@ -51,7 +51,7 @@ impl Times {
 
 /// How a run ended.
 #[derive(Debug)]
-pub(super) enum Ending {
+pub(super) enum RunEnding {
     Reached,
     /// The run took too long; the last time (s).
     GivenUp(f64),
@@ -65,7 +65,7 @@ pub(super) enum Ending {
 pub(super) struct Look {
     pub(super) observations: Vec<Observation>,
     pub(super) summary: Summary,
-    pub(super) ending: Ending,
+    pub(super) ending: RunEnding,
 }
 
 /// The options of a run for a curve at a tolerance.
@@ -98,16 +98,16 @@ pub(super) fn look(
             observations.push(Observation::of(sample, study.prepared.mechanism.space())?);
         }
         let is_late = clock.elapsed().as_secs_f64() > budget;
-        early = is_late.then_some(Ending::GivenUp(sample.t));
+        early = is_late.then_some(RunEnding::GivenUp(sample.t));
         Ok(match early {
             Some(_) => ControlFlow::Break(()),
             None => ControlFlow::Continue(()),
         })
     });
     let (summary, ending) = match outcome {
-        Ok(summary) if interrupted() => (summary, Ending::Interrupted),
-        Ok(summary) => (summary, early.unwrap_or(Ending::Reached)),
-        Err(failure) => (failure.summary, Ending::Failed(failure.error)),
+        Ok(summary) if interrupted() => (summary, RunEnding::Interrupted),
+        Ok(summary) => (summary, early.unwrap_or(RunEnding::Reached)),
+        Err(failure) => (failure.summary, RunEnding::Failed(failure.error)),
     };
     Look {
         observations,

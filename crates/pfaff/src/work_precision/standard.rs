@@ -44,7 +44,7 @@ pub struct Reference {
     /// Bound on the error of the values of each kind, scaled as [`Errors::scaled`].
     pub limits: [f64; 4],
     /// Values in the order of time.
-    pub instants: Vec<Expected>,
+    pub instants: Vec<ReferenceInstant>,
 }
 
 /// Reference values of one mechanism.
@@ -53,14 +53,14 @@ pub(super) struct Standard {
     /// Bound on the error of the values of each kind, scaled as [`Errors::scaled`]; NaN without a
     /// reference.
     pub(super) limits: [f64; 4],
-    instants: Vec<Expected>,
+    instants: Vec<ReferenceInstant>,
     units: [Vec<f64>; 4],
     scales: [f64; 4],
 }
 
 /// Values at one time, by index.
 #[derive(Clone, Debug)]
-pub struct Expected {
+pub struct ReferenceInstant {
     /// Time (s).
     pub t: f64,
     /// Indices and values of each kind.
@@ -93,7 +93,7 @@ impl Standard {
                 let places = (0..x.len()).filter(|place| kind < 3 || unique.contains(place));
                 places.map(|i| (i, 0.5 * (x[i] + y[i]))).collect()
             });
-            Expected { t: a.t, values }
+            ReferenceInstant { t: a.t, values }
         };
         let instants = a.iter().zip(b).map(mean).collect();
         let mut standard = Self::new(instants, [0.0; 4], units(mechanism, size));
@@ -104,7 +104,7 @@ impl Standard {
         standard
     }
 
-    fn new(instants: Vec<Expected>, limits: [f64; 4], units: [Vec<f64>; 4]) -> Self {
+    fn new(instants: Vec<ReferenceInstant>, limits: [f64; 4], units: [Vec<f64>; 4]) -> Self {
         let scale = |kind: usize| {
             let values = instants.iter().flat_map(|i| &i.values[kind]);
             let sizes = values.map(|&(place, value)| (value / units[kind][place]).abs());
@@ -134,7 +134,7 @@ impl Standard {
             }
             let mut taken = 0;
             for instant in &mut self.instants {
-                let same = |o: &&Expected| is_same_time(o.t, instant.t);
+                let same = |o: &&ReferenceInstant| is_same_time(o.t, instant.t);
                 if let Some(theirs) = other.instants.iter().find(same) {
                     instant.values[kind].clone_from(&theirs.values[kind]);
                     taken += theirs.values[kind].len();

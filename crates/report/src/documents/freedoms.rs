@@ -4,7 +4,7 @@ use model::Mechanism;
 use serde::Serialize;
 use solvability::{FreeMotion, Freedoms, LeftOut};
 
-use super::Named;
+use super::ByName;
 
 /// Free motions, and the mechanism without its drives.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -59,7 +59,7 @@ pub struct FreeMotionDocument {
     /// their frames in ground axes, for each degree of freedom in the description: three or six for
     /// a body that is free as a whole, otherwise one. The largest rotation is 1, or the fastest
     /// translation if nothing rotates.
-    pub velocities: Vec<Named<Vec<f64>>>,
+    pub velocities: Vec<ByName<Vec<f64>>>,
 }
 
 /// Freedoms that are only counted.
@@ -186,8 +186,8 @@ impl FreedomsDocument {
             .collect()
     }
 
-    fn told<'a>(&'a self) -> Vec<Told<'a>> {
-        let mut told: Vec<Told<'a>> = Vec::new();
+    fn told<'a>(&'a self) -> Vec<MotionSentence<'a>> {
+        let mut told: Vec<MotionSentence<'a>> = Vec::new();
         let is_restricted = self.cannot_move == Some(true)
             || !self.freedoms_blocked.is_empty()
             || !self.freedoms_undecided.is_empty();
@@ -216,11 +216,11 @@ impl FreedomsDocument {
 }
 
 /// Introduction, sentence, and the motion if it is described.
-type Told<'a> = (String, String, Option<&'a FreeMotionDocument>);
+type MotionSentence<'a> = (String, String, Option<&'a FreeMotionDocument>);
 
 /// Adds motions that are not told yet, and how many are only counted.
 fn tell<'a>(
-    told: &mut Vec<Told<'a>>,
+    told: &mut Vec<MotionSentence<'a>>,
     lead: &str,
     motions: &'a [FreeMotionDocument],
     left_out: Option<&LeftOutDocument>,
@@ -275,7 +275,7 @@ fn documents(motions: &[FreeMotion], mechanism: &Mechanism) -> Vec<FreeMotionDoc
                 let named = bodies
                     .iter()
                     .map(|(b, v)| (mechanism.bodies()[*b].name.clone(), shown_all(v)));
-                Named(named.collect())
+                ByName(named.collect())
             })
             .collect(),
     };

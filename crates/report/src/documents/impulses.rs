@@ -4,7 +4,7 @@ use dynamics::ReactionImpulse;
 use serde::Serialize;
 use solvability::Value;
 
-use super::Named;
+use super::ByName;
 
 /// The impulse of a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -13,7 +13,7 @@ use super::Named;
 pub struct ImpulseDocument {
     /// Its components that are not identically zero, and the named one of its definition, at this
     /// instant (N·s, N·m·s).
-    pub components: Named<Value>,
+    pub components: ByName<Value>,
 }
 
 impl From<&ReactionImpulse> for ImpulseDocument {
@@ -21,7 +21,7 @@ impl From<&ReactionImpulse> for ImpulseDocument {
         let components = impulse.components.iter();
         let components = components.map(|(name, value)| ((*name).to_owned(), value.clone()));
         Self {
-            components: Named(components.collect()),
+            components: ByName(components.collect()),
         }
     }
 }

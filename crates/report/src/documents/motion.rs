@@ -5,7 +5,7 @@ use model::{FrameState, Mechanism, Reaction, System};
 use serde::Serialize;
 use solvability::{ChosenValues, Stretches};
 
-use super::{Named, RunDocument};
+use super::{ByName, RunDocument};
 
 /// A run and its rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -45,27 +45,27 @@ pub struct MomentDocument {
     /// Time (s).
     pub t: f64,
     /// Bodies by name, in the order of the coordinates.
-    pub bodies: Named<Named<f64>>,
+    pub bodies: ByName<ByName<f64>>,
     /// Markers by name.
-    #[serde(skip_serializing_if = "Named::is_empty")]
-    pub markers: Named<Named<f64>>,
+    #[serde(skip_serializing_if = "ByName::is_empty")]
+    pub markers: ByName<ByName<f64>>,
     /// Measures by name (m, rad, m/s, rad/s).
-    #[serde(skip_serializing_if = "Named::is_empty")]
-    pub measures: Named<f64>,
+    #[serde(skip_serializing_if = "ByName::is_empty")]
+    pub measures: ByName<f64>,
     /// Force and torque on the first body of joints and drives, by name and in the order of their
     /// rows: `Fx`, `Fy` (N), `T` (N·m), and the named component of the definition, if it has one.
     /// Values that are not determined on their stretch, or were not computed, are NaN, `null` in
     /// JSON.
-    pub reactions: Named<Named<f64>>,
+    pub reactions: ByName<ByName<f64>>,
 }
 
 /// Position and velocity of a body or marker by the names of the columns of its space; in the plane
 /// `x`, `y` (m), `angle` (rad, not reduced to one revolution), `vx`, `vy` (m/s) and `omega` (rad/s)
 /// of the origin of the body's frame, which is its centre of mass unless the scene says otherwise,
 /// or of the marker.
-fn state(of: &FrameState) -> Named<f64> {
+fn state(of: &FrameState) -> ByName<f64> {
     let columns = of.space.columns().iter();
-    Named(
+    ByName(
         columns
             .map(|name| (*name).to_owned())
             .zip(of.numbers())
@@ -115,14 +115,14 @@ impl MomentDocument {
             let numbers = reaction.components(group.space);
             let numbers = names.zip(numbers.chain(reaction.component));
             let numbers = numbers.map(|(name, value)| (name.to_owned(), value));
-            (group.name.clone(), Named(numbers.collect()))
+            (group.name.clone(), ByName(numbers.collect()))
         });
         Self {
             t,
-            bodies: Named(bodies.collect()),
-            markers: Named(markers.collect()),
-            measures: Named(measures.collect()),
-            reactions: Named(reactions.collect()),
+            bodies: ByName(bodies.collect()),
+            markers: ByName(markers.collect()),
+            measures: ByName(measures.collect()),
+            reactions: ByName(reactions.collect()),
         }
     }
 }

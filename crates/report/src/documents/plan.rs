@@ -2,21 +2,21 @@
 
 use dynamics::plan::{ComponentPlan, Line, Plan};
 
-use super::Named;
+use super::ByName;
 
 /// The decisions about the whole, and about its only component if there is one.
-pub(super) fn short(plan: &Plan<'_>) -> Named<String> {
+pub(super) fn short(plan: &Plan<'_>) -> ByName<String> {
     let lines = plan.lines().into_iter();
     named(lines.filter(|line| line.component.is_none()))
 }
 
 /// The decisions about one of several components.
-pub(super) fn short_of(component: &ComponentPlan<'_>) -> Named<String> {
+pub(super) fn short_of(component: &ComponentPlan<'_>) -> ByName<String> {
     named(component.decisions.lines().into_iter())
 }
 
-fn named<'p>(lines: impl Iterator<Item = Line<'p>>) -> Named<String> {
-    Named(
+fn named<'p>(lines: impl Iterator<Item = Line<'p>>) -> ByName<String> {
+    ByName(
         lines
             .map(|line| (decision_key(line.decision), line.taken.to_owned()))
             .collect(),

@@ -11,7 +11,7 @@ use solvability::{Freedoms, ReactionVerdict, Sensitivities};
 
 use super::plan::{short, short_of};
 use super::{
-    DataDocument, FreedomsDocument, ImpulseDocument, MisfitDocument, Named, RunGroupDocument,
+    ByName, DataDocument, FreedomsDocument, ImpulseDocument, MisfitDocument, RunGroupDocument,
     RunReactionDocument, RunVerdicts, SpecialDocument, SpreadDocument, from_one,
 };
 
@@ -115,17 +115,17 @@ pub struct RunDocument {
     /// Events of the run.
     pub events: Vec<EventDocument>,
     /// Verdicts of every joint and drive, by name.
-    pub reactions: Named<RunReactionDocument>,
+    pub reactions: ByName<RunReactionDocument>,
     /// Verdicts of the groups of the scene, by name.
-    #[serde(skip_serializing_if = "Named::is_empty")]
-    pub groups: Named<RunGroupDocument>,
+    #[serde(skip_serializing_if = "ByName::is_empty")]
+    pub groups: ByName<RunGroupDocument>,
     /// Instants at which another verdict holds than on their stretch of the run.
     pub special: Vec<SpecialDocument>,
     /// The choices by which the numbers of `choice.csv` and of further files were made; empty if
     /// every number is determined.
     pub choice: Vec<ChoiceDocument>,
     /// Decisions before the run, in short.
-    pub plan: Named<String>,
+    pub plan: ByName<String>,
     /// Components that were run separately.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub components: Vec<ComponentRunDocument>,
@@ -159,7 +159,7 @@ pub struct ComponentRunDocument {
     /// Largest |E − E₀ − work| relative to its largest kinetic energy.
     pub energy_balance: f64,
     /// Decisions about it, in short.
-    pub plan: Named<String>,
+    pub plan: ByName<String>,
 }
 
 /// An event.
@@ -181,8 +181,8 @@ pub struct EventDocument {
     pub text: String,
     /// The impulses of joints and drives where velocities jump, by name and component, with the
     /// verdicts at this instant.
-    #[serde(skip_serializing_if = "Named::is_empty")]
-    pub impulses: Named<ImpulseDocument>,
+    #[serde(skip_serializing_if = "ByName::is_empty")]
+    pub impulses: ByName<ImpulseDocument>,
 }
 
 /// The choice by which the numbers of a table were made, on an interval of time.
@@ -323,8 +323,8 @@ impl RunDocument {
             let document = RunReactionDocument::new(r, verdicts, run.sensitivities, mechanism);
             (r.name.clone(), document)
         });
-        let reactions = Named(reactions.collect());
-        let groups = verdicts.map_or_else(|| Named(Vec::new()), |v| v.groups(mechanism.layout()));
+        let reactions = ByName(reactions.collect());
+        let groups = verdicts.map_or_else(|| ByName(Vec::new()), |v| v.groups(mechanism.layout()));
         let has_choice = verdicts.is_some_and(RunVerdicts::has_choice);
         Self {
             method: run.summary.method.name(),
@@ -377,7 +377,7 @@ impl RunDocument {
 }
 
 impl ComponentRunDocument {
-    fn new(component: &ComponentSummary, plan: Named<String>) -> Self {
+    fn new(component: &ComponentSummary, plan: ByName<String>) -> Self {
         let summary = &component.summary;
         Self {
             name: component.name.clone(),
@@ -410,7 +410,7 @@ impl EventDocument {
             redundancy_after: event.redundancy_after,
             deleted_rows: from_one(&event.dropped),
             text: event.text.clone(),
-            impulses: Named(impulses.collect()),
+            impulses: ByName(impulses.collect()),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::Named;
+use super::ByName;
 
 /// The document of `tolerance --json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -34,11 +34,11 @@ pub struct ToleranceDocument {
     /// Joints and drives, the largest relative range first.
     pub reactions: Vec<ReactionRangeDocument>,
     /// How far bodies are from where they are described.
-    pub bodies: Named<MovedDocument>,
+    pub bodies: ByName<MovedDocument>,
     /// Where markers are.
-    pub markers: Named<MarkerRangeDocument>,
+    pub markers: ByName<MarkerRangeDocument>,
     /// Values of measures.
-    pub measures: Named<MeasureRangeDocument>,
+    pub measures: ByName<MeasureRangeDocument>,
 }
 
 /// What samples are drawn from.

@@ -9,7 +9,7 @@ use solvability::{
     Sensitivity, Stretches, Value, Verdict, VerdictTrack,
 };
 
-use super::{Named, SensitivityDocument, VerdictDocument};
+use super::{ByName, SensitivityDocument, VerdictDocument};
 use crate::peaks::Peak;
 use crate::tables::{Quantity, ReactionColumn};
 
@@ -72,8 +72,8 @@ pub struct RunReactionDocument {
     pub at_start: VerdictDocument,
     /// Its components by name, as far as they are not identically zero, and the named one of its
     /// definition; empty if no reactions were asked for.
-    #[serde(skip_serializing_if = "Named::is_empty")]
-    pub components: Named<RunNumberDocument>,
+    #[serde(skip_serializing_if = "ByName::is_empty")]
+    pub components: ByName<RunNumberDocument>,
 }
 
 impl RunReactionDocument {
@@ -127,8 +127,8 @@ pub struct RunGroupDocument {
     #[serde(flatten)]
     pub data: SensitivityDocument,
     /// The components of a sum of wrenches.
-    #[serde(skip_serializing_if = "Named::is_empty")]
-    pub components: Named<RunNumberDocument>,
+    #[serde(skip_serializing_if = "ByName::is_empty")]
+    pub components: ByName<RunNumberDocument>,
     /// The peak of a sum that is one number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak: Option<PeakDocument>,
@@ -199,7 +199,7 @@ impl RunVerdicts<'_> {
         found: &ReactionStretches,
         sensitivities: &Sensitivities,
         layout: &Layout,
-    ) -> Named<RunNumberDocument> {
+    ) -> ByName<RunNumberDocument> {
         let owner = &layout.groups[found.id.0].name;
         let own = found.components.iter();
         let own = own.map(|(name, track)| {
@@ -209,7 +209,7 @@ impl RunVerdicts<'_> {
             let number = self.number(quantity, track, known, (&full_name, layout));
             ((*name).to_owned(), number)
         });
-        Named(own.collect())
+        ByName(own.collect())
     }
 
     /// Whether a column of its table has a number that is not determined.
@@ -220,12 +220,12 @@ impl RunVerdicts<'_> {
     }
 
     /// The groups by name.
-    pub(super) fn groups(&self, layout: &Layout) -> Named<RunGroupDocument> {
+    pub(super) fn groups(&self, layout: &Layout) -> ByName<RunGroupDocument> {
         let all = self.groups.iter().zip(&self.stretches.groups).enumerate();
         let document = |(k, ((name, known), found)): (usize, (&(String, _), _))| {
             (name.clone(), self.group(k, (name, known), found, layout))
         };
-        Named(all.map(document).collect())
+        ByName(all.map(document).collect())
     }
 
     fn group(
@@ -249,7 +249,7 @@ impl RunVerdicts<'_> {
             of_run: (&found.whole).into(),
             data: SensitivityDocument::of_group(known, name, layout),
             peak: peak.and_then(|(_, number)| number.peak.clone()),
-            components: Named(if is_sum { Vec::new() } else { numbers }),
+            components: ByName(if is_sum { Vec::new() } else { numbers }),
         }
     }
 }
@@ -304,7 +304,7 @@ impl RunReactionDocument {
                 (Some(run), Some(found)) => {
                     run.components(found, sensitivities, mechanism.layout())
                 }
-                _ => Named(Vec::new()),
+                _ => ByName(Vec::new()),
             },
         }
     }

@@ -18,7 +18,7 @@ use super::geometry::{Site, site, sites, turned_back};
 use super::outline::{double_area, hull};
 use super::projection::Projection;
 use super::symbol::{SPRING, Shapes, Symbol};
-use crate::channel::{Channel, Rounded};
+use crate::channel::{Channel, FewDigits};
 use crate::recording::Frame;
 pub(crate) use point::{Curves, Point};
 pub(crate) use wheel::DrawnWheel;
@@ -34,7 +34,7 @@ const FIXED: f64 = 1e-9;
 const GROUND: isize = -1;
 
 /// A point in the frame of a body.
-type Held = (isize, Point);
+type BodyPoint = (isize, Point);
 
 /// A body.
 #[derive(Clone, Debug, Serialize)]
@@ -67,7 +67,7 @@ pub(crate) enum Place {
 #[serde(untagged)]
 pub(crate) enum Heading {
     /// At this angle in a body (rad).
-    Of { b: isize, a: Rounded },
+    Of { b: isize, a: FewDigits },
     /// Given separately for each frame of the run.
     Free { a: Channel },
     /// In space: this direction, as a unit vector.
@@ -96,7 +96,7 @@ pub(crate) struct DrawnForce {
     pub(crate) name: String,
     #[serde(rename = "type")]
     pub(crate) kind: &'static str,
-    pub(crate) points: Vec<Held>,
+    pub(crate) points: Vec<BodyPoint>,
     pub(crate) bodies: Vec<isize>,
 }
 
@@ -108,7 +108,7 @@ pub(crate) struct DrawnMarker {
     /// Place relative to the centre of the body, in its axes (m).
     pub(crate) p: Point,
     /// Angle of its axes in the body (rad).
-    a: Rounded,
+    a: FewDigits,
 }
 
 /// Everything that is drawn.
@@ -452,7 +452,7 @@ impl Stage<'_> {
             if seen.all(|a| (a - first).sin().abs() <= FIXED) {
                 return Heading::Of {
                     b: index(body),
-                    a: Rounded(first),
+                    a: FewDigits(first),
                 };
             }
         }
@@ -519,7 +519,7 @@ impl DrawnMarker {
                 name: marker.name.clone(),
                 b: drawn(bodies, marker.body)?,
                 p: Point::new(space, frames.vector(marker.body, own)),
-                a: Rounded(marker.angle.unwrap_or_default()),
+                a: FewDigits(marker.angle.unwrap_or_default()),
             })
         });
         all.collect()

@@ -7,7 +7,7 @@
 use model::{Mechanism, SpaceKind};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-use crate::channel::Rounded;
+use crate::channel::FewDigits;
 
 /// How far the view is turned to the right of the front, and raised (rad): sixty degrees from the
 /// horizontal axis across it, and thirty. The line of sight is then along no direction with
@@ -87,7 +87,7 @@ impl Serialize for Projection {
             ("up", self.up),
             ("above", self.above),
         ] {
-            map.serialize_entry(name, &direction.map(Rounded))?;
+            map.serialize_entry(name, &direction.map(FewDigits))?;
         }
         map.end()
     }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 /// Directories that did not exist before, the innermost first.
 #[derive(Debug, Default)]
-pub(super) struct Made(Vec<PathBuf>);
+pub(super) struct NewDirectories(Vec<PathBuf>);
 
-impl Made {
+impl NewDirectories {
     /// Makes a directory and all above it.
     pub(super) fn all_of(path: &Path) -> io::Result<Self> {
         let is_missing = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
@@ -25,7 +25,7 @@ impl Made {
     }
 }
 
-impl Drop for Made {
+impl Drop for NewDirectories {
     fn drop(&mut self) {
         self.remove_empty();
     }

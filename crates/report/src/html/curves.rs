@@ -58,7 +58,7 @@ struct Residuals {
 impl<'a> Curves<'a> {
     /// Those of a page.
     pub(super) fn of(page: &'a RunPage<'a>) -> Self {
-        let measured = Measured::of(page.mechanism, &page.recording.frames);
+        let measured = EnergyCurves::of(page.mechanism, &page.recording.frames);
         Self {
             measures: measures(page),
             drives: page.drives.iter().take(DRIVES_MAX).map(drive).collect(),
@@ -103,7 +103,7 @@ fn drive(curve: &DriveCurve) -> Drive<'_> {
 }
 
 /// Energies and residuals at the frames.
-struct Measured {
+struct EnergyCurves {
     kinetic: Vec<f64>,
     potential: Vec<f64>,
     work: Vec<f64>,
@@ -111,7 +111,7 @@ struct Measured {
     velocity: Vec<f64>,
 }
 
-impl Measured {
+impl EnergyCurves {
     fn of(mechanism: &Mechanism, frames: &[Frame]) -> Self {
         let mut measured = Self {
             kinetic: frames

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::data::Cast;
 use super::run_page::{RunPage, Shows};
-use crate::channel::Rounded;
+use crate::channel::FewDigits;
 use crate::documents::DependencyDocument;
 
 /// Largest number of free motions, and of self-stresses, that can be chosen.
@@ -22,7 +22,7 @@ pub(super) struct Motion<'a> {
     text: &'a str,
     /// For each degree of freedom of the description the drawn bodies that move, with the
     /// velocities of their frames in ground axes.
-    velocities: Vec<Vec<(usize, Vec<Rounded>)>>,
+    velocities: Vec<Vec<(usize, Vec<FewDigits>)>>,
 }
 
 /// A self-stress of the start: loads that cancel on every body.
@@ -31,7 +31,7 @@ pub(super) struct Stress<'a> {
     text: &'a str,
     /// Drawn joints and drives, with the components of the load on their first bodies.
     joints: Vec<usize>,
-    wrenches: Vec<Vec<Rounded>>,
+    wrenches: Vec<Vec<FewDigits>>,
 }
 
 /// What can be chosen for the picture.
@@ -73,7 +73,7 @@ fn motions<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Motion<'a>> {
                 let known = moving.0.iter();
                 let drawn = known.filter_map(|(name, v)| {
                     let own = *place.get(name.as_str())?;
-                    Some((own, v.iter().copied().map(Rounded).collect()))
+                    Some((own, v.iter().copied().map(FewDigits).collect()))
                 });
                 drawn.collect()
             })
@@ -105,7 +105,7 @@ fn stresses<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Stress<'a>> {
                 .reactions(&s)
                 .reaction(ConstraintId(k), &lambda);
             let components = reaction.components(group.space);
-            told.wrenches.push(components.map(Rounded).collect());
+            told.wrenches.push(components.map(FewDigits).collect());
         }
         Some(told)
     };

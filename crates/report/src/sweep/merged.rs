@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::error::same;
-use super::records::Gathered;
+use super::records::RecordCollection;
 use super::{JournalError, Records, Shards};
 
 impl Records {
@@ -13,10 +13,10 @@ impl Records {
     /// Those of [`Shards::find`] and [`Shards::read`]; [`JournalError::Changed`] if they belong to
     /// different sweeps.
     pub fn merged<P: AsRef<Path>>(directories: &[P]) -> Result<Self, JournalError> {
-        let mut all: Option<Gathered> = None;
+        let mut all: Option<RecordCollection> = None;
         for directory in directories.iter().map(AsRef::as_ref) {
             let shards = Shards::find(directory)?;
-            let gathered = all.get_or_insert_with(|| Gathered::new(shards.plan().clone()));
+            let gathered = all.get_or_insert_with(|| RecordCollection::new(shards.plan().clone()));
             same(directory, shards.plan(), &gathered.records.plan)?;
             if let Some(runs) = shards.all() {
                 shards.gather(runs, gathered)?;

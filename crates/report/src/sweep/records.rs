@@ -26,7 +26,7 @@ impl Records {
     /// Nothing is known.
     #[must_use]
     pub fn none(plan: &SweepPlan) -> Self {
-        Gathered::new(plan.clone()).records()
+        RecordCollection::new(plan.clone()).records()
     }
 
     /// Whether some of the runs could begin.
@@ -61,7 +61,7 @@ impl Records {
 }
 
 /// Records that grow.
-pub(super) struct Gathered {
+pub(super) struct RecordCollection {
     pub(super) records: Records,
     pub(super) sealed: Vec<Runs>,
     columns: Columns,
@@ -96,7 +96,7 @@ impl Columns {
     }
 }
 
-impl Gathered {
+impl RecordCollection {
     pub(super) fn new(plan: SweepPlan) -> Self {
         Self {
             columns: Columns::of(&plan),

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use super::error::{json, mark, same};
 use super::journal::{self, Journal};
 use super::line::{Entry, Head, intact, line, record};
-use super::records::Gathered;
+use super::records::RecordCollection;
 use super::{JournalError, Records, Runs, SweepPlan};
 use crate::files::process::{Life, Process};
 use crate::files::{FileError, own_part};
@@ -45,15 +45,15 @@ pub struct Shards {
 }
 
 /// A file of the folder.
-struct Found {
+struct ShardFile {
     path: PathBuf,
     runs: Runs,
     is_sealed: bool,
 }
 
 /// What a file says.
-struct Told {
-    found: Found,
+struct ShardRecords {
+    found: ShardFile,
     entries: Vec<Entry>,
     by: Option<Process>,
 }
@@ -139,7 +139,7 @@ impl Shards {
     }
 
     /// The files that are about some of these runs, in the order of their names.
-    fn found(&self, wanted: Runs) -> Result<Vec<Found>, JournalError> {
+    fn found(&self, wanted: Runs) -> Result<Vec<ShardFile>, JournalError> {
         let refused = || FileError::refused("read", &self.folder);
         let mut all = Vec::new();
         for entry in fs::read_dir(&self.folder).map_err(refused())? {
@@ -151,7 +151,7 @@ impl Shards {
             if let Some(runs) = runs.filter(|runs| runs.meets(wanted))
                 && (is_sealed || name.ends_with(journal::EXTENSION))
             {
-                all.push(Found {
+                all.push(ShardFile {
                     path: entry.path(),
                     runs,
                     is_sealed,
@@ -184,13 +184,17 @@ impl Shards {
     /// - [`JournalError::Differs`]: two rows of one run differ.
     /// - [`JournalError::File`]: the operating system reported an error.
     pub fn read(&self, wanted: Runs) -> Result<Records, JournalError> {
-        let mut gathered = Gathered::new(self.plan.clone());
+        let mut gathered = RecordCollection::new(self.plan.clone());
         self.gather(wanted, &mut gathered)?;
         Ok(gathered.records())
     }
 
     /// Adds what is known of some runs.
-    pub(super) fn gather(&self, wanted: Runs, gathered: &mut Gathered) -> Result<(), JournalError> {
+    pub(super) fn gather(
+        &self,
+        wanted: Runs,
+        gathered: &mut RecordCollection,
+    ) -> Result<(), JournalError> {
         let mut looks = 0;
         let told = loop {
             match self.told(wanted) {
@@ -203,7 +207,7 @@ impl Shards {
                 told => break told?,
             }
         };
-        for Told { found, entries, by } in told {
+        for ShardRecords { found, entries, by } in told {
             let mut begun: BTreeMap<u64, bool> = BTreeMap::new();
             let mut has_ended = false;
             let mut count = 0;
@@ -241,7 +245,7 @@ impl Shards {
         Ok(())
     }
 
-    fn told(&self, wanted: Runs) -> Result<Vec<Told>, JournalError> {
+    fn told(&self, wanted: Runs) -> Result<Vec<ShardRecords>, JournalError> {
         let columns = self.plan.columns();
         let mut all = Vec::new();
         for found in self.found(wanted)? {
@@ -250,7 +254,7 @@ impl Shards {
                 continue;
             };
             let entries = lines.filter_map(|line| Entry::read(line, &columns, wanted));
-            all.push(Told {
+            all.push(ShardRecords {
                 entries: entries.collect(),
                 by: head.by,
                 found,
@@ -262,7 +266,7 @@ impl Shards {
     /// The first line of a file and the others; `None` if it has been cut off before.
     fn content<'b>(
         &self,
-        found: &Found,
+        found: &ShardFile,
         bytes: &'b [u8],
     ) -> Result<Option<(Head, impl Iterator<Item = &'b [u8]> + use<'b>)>, JournalError> {
         if !bytes.contains(&b'\n') {

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::findings::Kind;
-use super::outcome::Judged;
+use super::outcome::JudgedStart;
 
 /// Below the distance divided by this number, a tolerance does not change the rank; above the
 /// distance times this number, it lowers the rank.
@@ -42,7 +42,7 @@ impl Distance {
     }
 
     /// Compares the rank of a document with the right one.
-    pub fn judge(self, rank: usize, answer: &Value, judged: &mut Judged) -> Left {
+    pub fn judge(self, rank: usize, answer: &Value, judged: &mut JudgedStart) -> Left {
         let evidence = &answer["evidence"];
         if evidence["status"] != "decided" {
             let text = format!("rank {}: {}", answer["rank"], evidence["reason"]);

@@ -16,7 +16,7 @@ pub struct Outcome {
     /// Its text.
     pub text: String,
     /// The comparison of both.
-    pub judged: Judged,
+    pub judged: JudgedStart,
     /// The result of exact arithmetic, in words.
     pub truth: String,
     /// Whether it is redundant by exact arithmetic.
@@ -27,7 +27,7 @@ pub struct Outcome {
 
 /// The result of a comparison.
 #[derive(Debug, Default)]
-pub struct Judged {
+pub struct JudgedStart {
     /// The findings.
     pub findings: Findings,
     /// The rank that the program gave, if it is decided and there is no other one.
@@ -66,10 +66,10 @@ impl Outcome {
 /// The comparison of an answer, also if there is none.
 pub fn judged(
     answer: impl FnOnce() -> Result<Value, String>,
-    examine: impl FnOnce(&Value) -> Judged,
-) -> Judged {
+    examine: impl FnOnce(&Value) -> JudgedStart,
+) -> JudgedStart {
     let refused = |kind: Kind, text: String| {
-        let mut judged = Judged::default();
+        let mut judged = JudgedStart::default();
         judged.findings.note(kind, text);
         judged
     };
@@ -80,7 +80,7 @@ pub fn judged(
     }
 }
 
-impl Judged {
+impl JudgedStart {
     /// The findings for a document in which no other rank is correct.
     #[must_use]
     pub fn with_rank(findings: Findings, document: &Value) -> Self {

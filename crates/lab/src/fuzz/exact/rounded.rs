@@ -9,7 +9,7 @@ use super::doubles::{Doubles, extent};
 use super::examine::examine;
 use super::families::Family;
 use super::families::slender::Slender;
-use super::outcome::{Judged, Outcome, judged};
+use super::outcome::{JudgedStart, Outcome, judged};
 use super::pose::{Posed, Writing};
 use super::precisions::{DIGITS, PARTS};
 use super::ratio::Ratio;
@@ -90,14 +90,14 @@ fn outcome(
             Some(tolerance) => {
                 let judged = meant.judge(document, tolerance);
                 let other_rank = judged.other_rank.filter(|_| !is_full_rank);
-                Judged {
+                JudgedStart {
                     other_rank,
                     ..judged
                 }
             }
-            None => Judged {
+            None => JudgedStart {
                 findings: examine(&meant.truth, &meant.right, document),
-                ..Judged::default()
+                ..JudgedStart::default()
             },
         },
     );

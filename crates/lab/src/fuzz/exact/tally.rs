@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::examine::examine;
 use super::findings::Kind;
-use super::outcome::{Judged, Outcome, judged};
+use super::outcome::{JudgedStart, Outcome, judged};
 use super::pose::Writing;
 use super::{answer, precisions, rounded, scene, text};
 use crate::fuzz::space;
@@ -114,7 +114,7 @@ fn in_plane(seed: u64, number: u64) -> Outcome {
     let text = text::text(&scene.posed);
     let judged = judged(
         || answer::answer(&text),
-        |document| Judged::with_rank(examine(&truth, &right, document), document),
+        |document| JudgedStart::with_rank(examine(&truth, &right, document), document),
     );
     Outcome {
         family: scene.family.name(),

@@ -11,7 +11,7 @@ use super::expected::Expected;
 use super::findings::{Finding, Findings, Kind, list};
 use super::loads::Reactions;
 use super::minimax::Bounds;
-use super::outcome::Judged;
+use super::outcome::JudgedStart;
 use super::pose::Posed;
 use super::truth::Truth;
 use super::words;
@@ -101,8 +101,8 @@ impl<'a> Meant<'a> {
 
     /// Compares a document with the correct results.
     #[must_use]
-    pub fn judge(&self, answer: &Value, tolerance: f64) -> Judged {
-        let mut judged = Judged::default();
+    pub fn judge(&self, answer: &Value, tolerance: f64) -> JudgedStart {
+        let mut judged = JudgedStart::default();
         let rank = self.truth.rank();
         let left = self.distance(tolerance).judge(rank, answer, &mut judged);
         let findings = &mut judged.findings;

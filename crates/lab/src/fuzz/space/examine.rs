@@ -12,7 +12,7 @@ use crate::fuzz::exact::answer::answer;
 use crate::fuzz::exact::examine::ranks_and_reactions;
 use crate::fuzz::exact::expected::Expected;
 use crate::fuzz::exact::findings::Findings;
-use crate::fuzz::exact::outcome::{Judged, Outcome, judged};
+use crate::fuzz::exact::outcome::{JudgedStart, Outcome, judged};
 use crate::fuzz::exact::truth::Truth;
 
 /// Tests one scene with all digits of a double.
@@ -37,11 +37,11 @@ pub fn compared(drawing: &Drawing) -> Findings {
     judge(drawing).1.findings
 }
 
-fn judge(drawing: &Drawing) -> (Expected, Judged) {
+fn judge(drawing: &Drawing) -> (Expected, JudgedStart) {
     let (truth, right) = drawing.right();
     let judged = judged(
         || answer(&text(drawing)),
-        |document| Judged::with_rank(compare(&truth, &right, document), document),
+        |document| JudgedStart::with_rank(compare(&truth, &right, document), document),
     );
     (right, judged)
 }

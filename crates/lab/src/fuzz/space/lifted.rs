@@ -34,7 +34,7 @@ use crate::fuzz::exact;
 use crate::fuzz::exact::answer::answer_of;
 use crate::fuzz::exact::families::Family;
 use crate::fuzz::exact::findings::{Findings, Kind, list};
-use crate::fuzz::exact::outcome::{Judged, Outcome, judged};
+use crate::fuzz::exact::outcome::{JudgedStart, Outcome, judged};
 use crate::fuzz::exact::pose::Writing;
 
 /// What follows the name of a pin in a slot in the name of its row in the plane.
@@ -420,7 +420,7 @@ fn reaction_in_space(
 ///
 /// # Errors
 /// If the text is no scene with a consistent start.
-pub fn examine(text: &str) -> Result<Option<(Lifted, Judged)>, String> {
+pub fn examine(text: &str) -> Result<Option<(Lifted, JudgedStart)>, String> {
     let read = AssembledScene::read("scene.toml", text, &Registry::standard());
     let scene = read.map_err(|e| e.to_string())?.scene;
     let AnyDescription::Plane(description) = &scene.description else {
@@ -436,7 +436,7 @@ pub fn examine(text: &str) -> Result<Option<(Lifted, Judged)>, String> {
     };
     let judged = judged(documents, |both: &Value| {
         let findings = compared(&lifted, &both[0], &both[1]);
-        Judged {
+        JudgedStart {
             findings,
             rank: both[1]["rank"].as_u64(),
             other_rank: None,
@@ -459,7 +459,7 @@ pub fn outcome(seed: u64, number: u64) -> Outcome {
         family: scene.family.name(),
         way: scene.writing as usize,
         text,
-        judged: Judged::default(),
+        judged: JudgedStart::default(),
         truth: "nothing can be lifted".to_owned(),
         is_redundant: false,
         must_be_decided: scene.writing != Writing::Far,

@@ -15,7 +15,7 @@ use crate::fuzz::exact::answer::answer;
 use crate::fuzz::exact::distance::{BEYOND_DOUBT, Distance, Left};
 use crate::fuzz::exact::examine::{self, ranks_and_reactions, reactions};
 use crate::fuzz::exact::expected::{Elsewhere, Expected, Verdict};
-use crate::fuzz::exact::outcome::{Judged, Outcome, judged};
+use crate::fuzz::exact::outcome::{JudgedStart, Outcome, judged};
 use crate::fuzz::exact::precisions::DIGITS;
 use crate::fuzz::exact::truth::Truth;
 use crate::fuzz::exact::wrench::Wrench;
@@ -101,8 +101,8 @@ impl Meant {
 
     /// Compares a document with the right results; a tolerance (m) is stated or not.
     #[must_use]
-    pub fn judge(&self, document: &serde_json::Value, tolerance: Option<f64>) -> Judged {
-        let mut judged = Judged::default();
+    pub fn judge(&self, document: &serde_json::Value, tolerance: Option<f64>) -> JudgedStart {
+        let mut judged = JudgedStart::default();
         let Some(tolerance) = tolerance else {
             ranks_and_reactions(&self.truth, &self.right, document, &mut judged.findings);
             return judged;

@@ -34,7 +34,7 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
         Ok(plan) => plan,
         Err(e) => {
             named(&e);
-            return (Reach::Judged, 0);
+            return (Reach::JudgedStart, 0);
         }
     };
     let mechanism = &study.prepared.mechanism;

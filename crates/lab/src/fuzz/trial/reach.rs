@@ -17,7 +17,7 @@ pub enum Reach {
     /// It is a scene without a consistent start.
     NoStart,
     /// Its reactions were judged, but no motion can begin there.
-    Judged,
+    JudgedStart,
     /// A motion began, and stopped with an error message.
     Stopped,
     /// A motion reached the limits of a trial.
@@ -31,7 +31,7 @@ impl Reach {
     pub const ALL: [Self; 6] = [
         Self::Refused,
         Self::NoStart,
-        Self::Judged,
+        Self::JudgedStart,
         Self::Stopped,
         Self::Cut,
         Self::Moved,
@@ -43,7 +43,7 @@ impl Reach {
         match self {
             Self::Refused => 'r',
             Self::NoStart => 'n',
-            Self::Judged => 'j',
+            Self::JudgedStart => 'j',
             Self::Stopped => 's',
             Self::Cut => 'c',
             Self::Moved => 'm',
@@ -56,7 +56,7 @@ impl fmt::Display for Reach {
         f.write_str(match self {
             Self::Refused => "refused",
             Self::NoStart => "without a start",
-            Self::Judged => "judged",
+            Self::JudgedStart => "judged",
             Self::Stopped => "stopped by name",
             Self::Cut => "moved, cut off",
             Self::Moved => "moved",

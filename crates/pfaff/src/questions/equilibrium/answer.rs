@@ -3,7 +3,7 @@
 use dynamics::equilibrium::{Equilibrium, RestStability};
 use linalg::kernels::norm;
 use model::{Layout, Mechanism, SpaceKind, System};
-use report::documents::{Named, SensitivityDocument, VerdictDocument};
+use report::documents::{ByName, SensitivityDocument, VerdictDocument};
 use serde::Serialize;
 use solvability::{ReactionValues, ReactionVerdict, Sensitivities, Value};
 
@@ -32,7 +32,7 @@ pub struct EquilibriumAnswer {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub not_judged_because: Option<&'static str>,
     /// How far each body is from the start, and where.
-    pub bodies: Named<RestingBody>,
+    pub bodies: ByName<RestingBody>,
     /// Free motions that nothing pushes and nothing resists.
     pub idle: Vec<String>,
     /// Free motions along which forces push away.
@@ -44,7 +44,7 @@ pub struct EquilibriumAnswer {
     /// Drives and joints that are held, and that functions of time accelerate at once.
     pub moving_on: Vec<String>,
     /// Reactions of joints and drives there.
-    pub reactions: Named<ReactionAtRest>,
+    pub reactions: ByName<ReactionAtRest>,
     /// Why there are no numbers of reactions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_reactions_because: Option<String>,
@@ -66,7 +66,7 @@ pub struct RestingBody {
     /// Angle by which it is turned from the start (rad); in the plane with its sign.
     pub turned: f64,
     /// Where its frame is: the columns of a trajectory, without velocities.
-    pub at: Named<f64>,
+    pub at: ByName<f64>,
 }
 
 /// A reaction at rest.
@@ -82,7 +82,7 @@ pub struct ReactionAtRest {
     pub data: SensitivityDocument,
     /// Force and torque on the first body by component (N, N·m), as far as they are not identically
     /// zero.
-    pub values: Named<Value>,
+    pub values: ByName<Value>,
 }
 
 impl ReactionAtRest {
@@ -92,18 +92,18 @@ impl ReactionAtRest {
         values: &[ReactionValues],
         sensitivities: &Sensitivities,
         layout: &Layout,
-    ) -> Named<Self> {
+    ) -> ByName<Self> {
         let one = |(verdict, values): (&ReactionVerdict, &ReactionValues)| {
             let numbers = values.components.iter();
             let numbers = numbers.map(|(name, value)| ((*name).to_owned(), value.clone()));
             let document = Self {
                 verdict: (&verdict.wrench).into(),
                 data: SensitivityDocument::of(sensitivities, verdict.id, layout),
-                values: Named(numbers.collect()),
+                values: ByName(numbers.collect()),
             };
             (values.name.clone(), document)
         };
-        Named(verdicts.iter().zip(values).map(one).collect())
+        ByName(verdicts.iter().zip(values).map(one).collect())
     }
 }
 
@@ -113,7 +113,7 @@ impl EquilibriumAnswer {
     pub(super) fn new(
         study: &Study,
         x: &Equilibrium,
-        there: Result<Named<ReactionAtRest>, String>,
+        there: Result<ByName<ReactionAtRest>, String>,
     ) -> Self {
         let (mechanism, start) = (&study.prepared.mechanism, &study.prepared.q);
         let bodies = (0..mechanism.bodies().len()).map(|body| {
@@ -124,7 +124,7 @@ impl EquilibriumAnswer {
         let drives = groups.iter().filter(|group| group.is_drive());
         let (reactions, no_reactions_because) = match there {
             Ok(reactions) => (reactions, None),
-            Err(why) => (Named(Vec::new()), Some(why)),
+            Err(why) => (ByName(Vec::new()), Some(why)),
         };
         Self {
             scene: study.scene.name().to_owned(),
@@ -135,7 +135,7 @@ impl EquilibriumAnswer {
             largest_force: x.largest_force,
             stability: x.stability.word(),
             not_judged_because: RestStability::why_not(x.stability),
-            bodies: Named(bodies.collect()),
+            bodies: ByName(bodies.collect()),
             idle: x.idle.clone(),
             falling: x.falling.clone(),
             depends_on_way: x.depends_on_way,
@@ -166,6 +166,6 @@ fn resting(mechanism: &Mechanism, body: usize, start: &[f64], q: &[f64]) -> Rest
     RestingBody {
         moved: norm(&way),
         turned,
-        at: Named(places.map(|(name, x)| ((*name).to_owned(), x)).collect()),
+        at: ByName(places.map(|(name, x)| ((*name).to_owned(), x)).collect()),
     }
 }

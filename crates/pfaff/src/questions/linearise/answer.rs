@@ -2,7 +2,7 @@
 
 use dynamics::linearise::{Coordinate, Linearisation, Mode, Stability};
 use linalg::Matrix;
-use report::documents::Named;
+use report::documents::ByName;
 use serde::Serialize;
 
 /// A linearised motion.
@@ -93,7 +93,7 @@ pub struct ModeOfMotion {
     /// −Re λ/|λ|; `null` for λ = 0.
     pub damping_ratio: Option<f64>,
     /// Shape: real and imaginary part of each state; the largest position is 1.
-    pub shape: Named<[f64; 2]>,
+    pub shape: ByName<[f64; 2]>,
 }
 
 impl LineariseAnswer {
@@ -108,7 +108,7 @@ impl LineariseAnswer {
                 .oscillates()
                 .then(|| mode.natural_frequency() / std::f64::consts::TAU),
             damping_ratio: mode.damping_ratio(),
-            shape: Named(
+            shape: ByName(
                 states
                     .iter()
                     .zip(&mode.states)

@@ -6,7 +6,7 @@ use solvability::{
     Continuation, Difference, MotionAnalysis, Passage, PassageKind, ReactionStretches, Stretch,
 };
 
-use crate::documents::{Named, SpecialDocument, TrackDocument};
+use crate::documents::{ByName, SpecialDocument, TrackDocument};
 
 /// The verdicts of a motion by stretches of time, and its singular configurations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -29,7 +29,7 @@ pub struct AlongDocument {
     /// The rank that holds almost everywhere.
     pub generic: GenericRankDocument,
     /// The verdicts on joints and drives over the motion, as in `summary.json` of a run.
-    pub reactions: Named<AlongReactionDocument>,
+    pub reactions: ByName<AlongReactionDocument>,
     /// Instants with another verdict than their stretch.
     pub special: Vec<SpecialDocument>,
     /// Stretches of time with another rank.
@@ -61,7 +61,7 @@ pub struct AlongReactionDocument {
     pub of_run: TrackDocument,
     /// The verdicts of its components by name, in ground axes, as far as they are not identically
     /// zero, and of the named one of its definition.
-    pub components: Named<TrackDocument>,
+    pub components: ByName<TrackDocument>,
 }
 
 /// A stretch of time with another rank.
@@ -152,7 +152,7 @@ impl AlongDocument {
             let components = own.map(|(name, track)| ((*name).to_owned(), track.into()));
             let document = AlongReactionDocument {
                 of_run: (&found.whole).into(),
-                components: Named(components.collect()),
+                components: ByName(components.collect()),
             };
             (layout.groups[found.id.0].name.clone(), document)
         };
@@ -167,7 +167,7 @@ impl AlongDocument {
                 rank: generic.rank,
                 redundancy: generic.redundancy,
             },
-            reactions: Named(along.verdicts.reactions.iter().map(reaction).collect()),
+            reactions: ByName(along.verdicts.reactions.iter().map(reaction).collect()),
             special: SpecialDocument::all::<()>(&along.verdicts, &[], layout),
             stretches: along.stretches.iter().map(Into::into).collect(),
             passages: along.passages.iter().map(Into::into).collect(),

@@ -3,7 +3,7 @@
 use model::SpaceKind;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-use crate::channel::{Channel, Rounded};
+use crate::channel::{Channel, FewDigits};
 
 /// A point, as the list of its coordinates (m).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,7 +26,7 @@ impl Point {
 
 impl Serialize for Point {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.at.iter().take(self.count).map(|x| Rounded(*x)))
+        serializer.collect_seq(self.at.iter().take(self.count).map(|x| FewDigits(*x)))
     }
 }
 

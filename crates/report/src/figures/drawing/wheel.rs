@@ -5,7 +5,7 @@ use model::{ConstraintId, SpaceKind};
 use serde::Serialize;
 
 use super::{DrawingModel, Point, Probe, Stage, index};
-use crate::channel::Rounded;
+use crate::channel::FewDigits;
 use crate::figures::geometry::Pitch;
 use crate::figures::projection::unit;
 
@@ -26,7 +26,7 @@ pub(crate) struct DrawnWheel {
     #[serde(skip_serializing_if = "Option::is_none")]
     axis: Option<Point>,
     /// Its radius (m).
-    r: Rounded,
+    r: FewDigits,
 }
 
 impl DrawingModel {
@@ -75,7 +75,7 @@ impl Stage<'_> {
             p: Point::new(space, self.told(wheel.body, wheel.centre)),
             axis: (space == SpaceKind::Space3)
                 .then(|| Point::new(space, self.told(wheel.body, wheel.axis))),
-            r: Rounded(wheel.radius),
+            r: FewDigits(wheel.radius),
         })
         .collect()
     }
