@@ -568,7 +568,7 @@ pub(crate) const AT_REST: f64 = 1e-10;
 /// Test: `the_motion_of_fewest_joints_comes_first`.
 pub(crate) const TRIALS: usize = 2_000_000;
 
-// Reactions by a choice, units, sensitivity.
+// Reactions by a choice, sensitivity.
 
 /// A number is known to so many roundings of the largest multiplier, each measured by its row.
 /// Unit: roundings of the largest multiplier. Less: rounding is shown. More: digits are not. Test:
@@ -584,15 +584,6 @@ pub(crate) const AGREEMENT: f64 = 1e-9;
 /// The first solve leaves its own rounding; the second removes what of it matters.
 /// Unit: solves. Less: rounding of the first remains. More: time. Test: `beam_on_three_springs`.
 pub(crate) const CHOICE_SOLVES: usize = 2;
-
-/// A change below this share of the largest force or torque is rounding.
-/// Unit: share of the largest force or torque. Less: rounding depends on units. More: what depends
-/// on units is called a fact. Test: `facts_do_not_depend_on_units`.
-pub(crate) const UNIT_ROUNDING: f64 = 1e-9;
-
-/// The unit of one joint alone is this much smaller than that of the others.
-/// Unit: 1. Less: a choice does not show. More: rounding does. Test: none.
-pub(crate) const OF_ONE_JOINT: f64 = 1e3;
 
 /// A point moves by this share of the mechanism's size (in long chains: of the size of its links),
 /// a direction by as many radians: what a careful workshop holds.
