@@ -367,7 +367,8 @@ pub(crate) const PIVOT_LOSS: f64 = 0.1;
 pub(crate) const PIVOT_RECOVERY: f64 = 0.2;
 
 /// Rows chosen by themselves are exchanged above this coefficient in a dropped row.
-/// Unit: 1. Less: rows are decided again at every step. More: dropped rows miss. Test: none.
+/// Unit: 1. Less: rows are decided again at every step. More: dropped rows miss. Test:
+/// `rows_that_multiply_their_rounding_are_exchanged`.
 pub(crate) const LARGE_COEFFICIENT: f64 = 10.0;
 
 /// Other rows are worth an exchange if their coefficients are so many times smaller.
@@ -696,11 +697,13 @@ impl MotionOptions {
     pub const OUTPUT_STEPS: f64 = 200.0;
 
     /// Relative tolerance where none is given.
-    /// Unit: 1. Less: time. More: motions are wrong in the digits that are read. Test: none.
+    /// Unit: 1. Less: time. More: motions are wrong in the digits that are read. Test:
+    /// `motions_without_stated_tolerances_have_the_digits_that_are_read`.
     pub const RTOL: f64 = 1e-8;
 
     /// Absolute tolerance where none is given.
-    /// Unit: m, rad, and these per second. Less, more: as the relative one. Test: none.
+    /// Unit: m, rad, and these per second. Less, more: as the relative one. Test:
+    /// `motions_without_stated_tolerances_have_the_digits_that_are_read`.
     pub const ATOL: f64 = 1e-10;
 
     /// Relative tolerances that can be asked for.

@@ -60,6 +60,60 @@ fn apply(
     text: &SourceText,
     findings: &mut Findings,
 ) -> Result<(), Wrong> {
+    check_names(keys, text, findings)?;
+    let find = |key: &str| -> Result<Option<(usize, Node)>, Wrong> {
+        let found = keys.iter().find(|of| of.name == key);
+        found.map(|of| Ok((of.at, of.value()?))).transpose()
+    };
+    let of_types = find("type")?;
+    let types = texts("type", of_types.as_ref())?;
+    let of_loops = find("closed_loop")?;
+    let start = of_loops.as_ref().map_or(0, |(at, _)| *at);
+    let has_joints = keys.iter().any(|key| key.name == "joint_name");
+    let pairs = pairs(of_loops.as_ref(), has_joints)?;
+    if of_types.is_none() && !pairs.is_empty() {
+        let message = "key `type` is missing: a list with `3d` or `6d` for each pair";
+        return Err((start, message.to_owned()));
+    }
+    if types.len() != pairs.len() {
+        let message = format!(
+            "`closed_loop` has {} pairs, `type` {} types",
+            pairs.len(),
+            types.len()
+        );
+        return Err((start, message));
+    }
+    for (k, (pair, kind)) in pairs.iter().zip(types).enumerate() {
+        model.joints.push(closure(k, pair, kind, links)?);
+    }
+    let (of_names, of_kinds) = (find("joint_name")?, find("joint_type")?);
+    let names = texts("joint_name", of_names.as_ref())?;
+    let kinds = texts("joint_type", of_kinds.as_ref())?;
+    if names.len() != kinds.len() {
+        let at = names.first().map_or(0, |(_, at)| *at);
+        return Err((
+            at,
+            "`joint_name` and `joint_type` have different lengths".into(),
+        ));
+    }
+    let joints = model.joints.iter().enumerate();
+    let joints: HashMap<String, usize> = joints.map(|(k, j)| (j.name.clone(), k)).collect();
+    for ((name, at), kind) in names.into_iter().zip(kinds) {
+        let joint = joints.get(name).copied();
+        let joint = joint.ok_or_else(|| (at, format!("there is no joint `{name}`")))?;
+        if !matches!(
+            model.joints[joint].kind,
+            JointKind::Revolute | JointKind::Fixed
+        ) {
+            return Err((at, format!("joint `{name}` is no hinge")));
+        }
+        change_kind(model, joint, kind)?;
+    }
+    Ok(())
+}
+
+/// Each key once, and none that may be another one, misspelt.
+fn check_names(keys: &[Key], text: &SourceText, findings: &mut Findings) -> Result<(), Wrong> {
     let mut seen: HashMap<&str, usize> = HashMap::new();
     for key in keys {
         let (name, line) = (key.name.as_str(), text.line(key.at));
@@ -82,126 +136,105 @@ fn apply(
             },
         }
     }
-    let find = |key: &str| -> Result<Option<(usize, Node)>, Wrong> {
-        let found = keys.iter().find(|of| of.name == key);
-        found.map(|of| Ok((of.at, of.value()?))).transpose()
-    };
-    let of_types = find("type")?;
-    let types = texts("type", of_types.as_ref())?;
-    let of_loops = find("closed_loop")?;
-    let start = of_loops.as_ref().map_or(0, |(at, _)| *at);
-    let pairs = match &of_loops {
-        Some((_, Node::List(pairs))) => pairs.as_slice(),
+    Ok(())
+}
+
+/// Two names of links, each with its place.
+type Pair<'n> = [(&'n str, usize); 2];
+
+/// The pairs of links of `closed_loop`, which may be missing if the file has joints.
+fn pairs<'n>(loops: Option<&'n (usize, Node)>, has_joints: bool) -> Result<Vec<Pair<'n>>, Wrong> {
+    let (start, pairs) = match loops {
+        Some((at, Node::List(pairs))) => (*at, pairs),
         Some((at, Node::Text(..))) => {
             let message = "`closed_loop` has to be a list of pairs: write `[[link, link]]`";
             return Err((*at, message.to_owned()));
         }
-        None if keys.iter().any(|key| key.name == "joint_name") => &[],
+        None if has_joints => return Ok(Vec::new()),
         None => {
             let message = "key `closed_loop` is missing: a list of pairs `[[link, link]]`";
             return Err((0, message.to_owned()));
         }
     };
-    let mut ends_of = Vec::new();
-    for (k, pair) in pairs.iter().enumerate() {
-        let names = pair.texts().filter(|names| names.len() == 2);
-        let Some(names) = names else {
+    let names = |(k, pair): (usize, &'n Node)| {
+        let names = pair.texts().and_then(|names| names.try_into().ok());
+        names.ok_or_else(|| {
             let (what, at) = match pair {
                 Node::Text(text, at) => (format!("`{text}`"), *at),
                 Node::List(items) => (format!("a list of {}", items.len()), start),
             };
             let message = format!("entry {} is {what}, not a pair `[link, link]`", k + 1);
-            return Err((at, message));
-        };
-        ends_of.push(names);
+            (at, message)
+        })
+    };
+    pairs.iter().enumerate().map(names).collect()
+}
+
+/// The joint of pair k.
+fn closure(
+    k: usize,
+    pair: &Pair<'_>,
+    (kind, at): (&str, usize),
+    links: &HashMap<String, usize>,
+) -> Result<Joint, Wrong> {
+    let mut ends = [None; 2];
+    for (end, (name, at)) in ends.iter_mut().zip(pair) {
+        let found = links.get(*name).copied();
+        *end = Some(found.ok_or_else(|| (*at, format!("there is no link `{name}`")))?);
     }
-    if of_types.is_none() && !pairs.is_empty() {
-        let message = "key `type` is missing: a list with `3d` or `6d` for each pair";
-        return Err((start, message.to_owned()));
+    let kind = match kind.to_ascii_lowercase().as_str() {
+        "6d" => JointKind::Fixed,
+        "3d" => JointKind::Spherical,
+        other => return Err((at, format!("the type `{other}` is neither `3d` nor `6d`"))),
+    };
+    if ends[0] == ends[1] {
+        return Err((at, format!("pair {} is one link twice", k + 1)));
     }
-    if types.len() != pairs.len() {
-        let message = format!(
-            "`closed_loop` has {} pairs, `type` {} types",
-            pairs.len(),
-            types.len()
-        );
-        return Err((start, message));
-    }
-    for (k, (names, (kind, at))) in ends_of.into_iter().zip(types).enumerate() {
-        let mut ends = [None; 2];
-        for (end, (name, at)) in ends.iter_mut().zip(&names) {
-            let found = links.get(*name).copied();
-            *end = Some(found.ok_or_else(|| (*at, format!("there is no link `{name}`")))?);
-        }
-        let kind = match kind.to_ascii_lowercase().as_str() {
-            "6d" => JointKind::Fixed,
-            "3d" => JointKind::Spherical,
-            other => return Err((at, format!("the type `{other}` is neither `3d` nor `6d`"))),
-        };
-        if ends[0] == ends[1] {
-            return Err((at, format!("pair {} is one link twice", k + 1)));
-        }
-        let name = format!("{} to {}", names[0].0, names[1].0);
-        let zero = [Vector3::zeros(); 2];
-        let frames = (kind == JointKind::Fixed).then(|| [UnitQuaternion::identity(); 2]);
-        let joint = Joint::new(name, kind, ends, zero, [Vector3::z(); 2]);
-        model.joints.push(Joint {
-            places: false,
-            frames,
-            ..joint
-        });
-    }
-    let (of_names, of_kinds) = (find("joint_name")?, find("joint_type")?);
-    let names = texts("joint_name", of_names.as_ref())?;
-    let kinds = texts("joint_type", of_kinds.as_ref())?;
-    if names.len() != kinds.len() {
-        let at = names.first().map_or(0, |(_, at)| *at);
-        return Err((
-            at,
-            "`joint_name` and `joint_type` have different lengths".into(),
-        ));
-    }
-    let joints = model.joints.iter().enumerate();
-    let joints: HashMap<String, usize> = joints.map(|(k, j)| (j.name.clone(), k)).collect();
-    for ((name, at), (kind, of)) in names.into_iter().zip(kinds) {
-        let joint = joints.get(name).and_then(|k| model.joints.get_mut(*k));
-        let joint = joint.ok_or_else(|| (at, format!("there is no joint `{name}`")))?;
-        if !matches!(joint.kind, JointKind::Revolute | JointKind::Fixed) {
-            return Err((at, format!("joint `{name}` is no hinge")));
-        }
-        let axis = |letter: char| match letter {
-            'X' => Some(Vector3::x()),
-            'Y' => Some(Vector3::y()),
-            'Z' => Some(Vector3::z()),
-            _ => None,
-        };
-        let letters: Vec<char> = kind
-            .strip_prefix("UJOINT_")
-            .unwrap_or_default()
-            .chars()
-            .collect();
-        match letters.as_slice() {
-            [] if kind == "SPHERICAL" => joint.kind = JointKind::Spherical,
-            &[a, b] => {
-                let (Some(first), Some(second)) = (axis(a), axis(b)) else {
-                    return Err((of, no_type(kind)));
-                };
-                if first == second {
-                    return Err((of, format!("`{kind}` has one axis twice")));
-                }
-                // The rotation from the joint's axes to those of the first link.
-                let turned = model.links[joint.links[1].unwrap_or(0)].pose.rotation;
-                let before = joint.links[0].map(|link| model.links[link].pose.rotation);
-                let relation = before.unwrap_or_default().inverse() * turned;
-                joint.kind = JointKind::Universal;
-                joint.axes = [relation * first, first];
-                joint.cross = second;
+    let name = format!("{} to {}", pair[0].0, pair[1].0);
+    let zero = [Vector3::zeros(); 2];
+    let frames = (kind == JointKind::Fixed).then(|| [UnitQuaternion::identity(); 2]);
+    Ok(Joint {
+        places: false,
+        frames,
+        ..Joint::new(name, kind, ends, zero, [Vector3::z(); 2])
+    })
+}
+
+/// Makes a hinge a joint with more freedoms.
+fn change_kind(model: &mut Model, joint: usize, (kind, at): (&str, usize)) -> Result<(), Wrong> {
+    let joint = &mut model.joints[joint];
+    let axis = |letter: char| match letter {
+        'X' => Some(Vector3::x()),
+        'Y' => Some(Vector3::y()),
+        'Z' => Some(Vector3::z()),
+        _ => None,
+    };
+    let letters: Vec<char> = kind
+        .strip_prefix("UJOINT_")
+        .unwrap_or_default()
+        .chars()
+        .collect();
+    match letters.as_slice() {
+        [] if kind == "SPHERICAL" => joint.kind = JointKind::Spherical,
+        &[a, b] => {
+            let (Some(first), Some(second)) = (axis(a), axis(b)) else {
+                return Err((at, no_type(kind)));
+            };
+            if first == second {
+                return Err((at, format!("`{kind}` has one axis twice")));
             }
-            _ => return Err((of, no_type(kind))),
+            // The rotation from the joint's axes to those of the first link.
+            let turned = model.links[joint.links[1].unwrap_or(0)].pose.rotation;
+            let before = joint.links[0].map(|link| model.links[link].pose.rotation);
+            let relation = before.unwrap_or_default().inverse() * turned;
+            joint.kind = JointKind::Universal;
+            joint.axes = [relation * first, first];
+            joint.cross = second;
         }
-        joint.loads = Default::default();
-        joint.places = true;
+        _ => return Err((at, no_type(kind))),
     }
+    joint.loads = Default::default();
+    joint.places = true;
     Ok(())
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::Isometry3;
 
 use crate::findings::Findings;
-use crate::mechanism::{Frame, JointKind, Model};
+use crate::mechanism::{Frame, Joint, JointKind, Model};
 use crate::pose::{Motion, placing};
 
 /// Where the axes of a link have gone: the link that has them, and their place there.
@@ -12,68 +12,27 @@ type Host = (Option<usize>, Isometry3<f64>);
 /// Makes links that fixed joints place parts of the links before them. `motions` are those of the
 /// links, and stay so.
 pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut Findings) {
-    let before = placing(model);
-    let fixed = |link: usize| {
-        let joint = before[link].map(|joint| &model.joints[joint])?;
-        let merges = joint.kind == JointKind::Fixed && joint.is_active && joint.frames.is_none();
-        merges.then_some(joint.links[0])
-    };
-    let hosts: Vec<Host> = (0..model.links.len())
-        .map(|link| {
-            let (mut host, mut steps) = (Some(link), 0);
-            while let Some(parent) = host.and_then(fixed) {
-                host = parent;
-                steps += 1;
-                if steps > model.links.len() {
-                    return (Some(link), Isometry3::identity());
-                }
-            }
-            if host == Some(link) {
-                return (host, Isometry3::identity());
-            }
-            (host, model.pose(host).inverse() * model.links[link].pose)
-        })
-        .collect();
-    let merged: Vec<usize> = (0..hosts.len())
-        .filter(|&k| hosts[k].0 != Some(k))
-        .collect();
+    let hosts = hosts(model);
+    let is_merged = |k: &usize| hosts[*k].0 != Some(*k);
+    let merged: Vec<usize> = (0..hosts.len()).filter(is_merged).collect();
     if merged.is_empty() {
         return;
     }
-    let names: Vec<String> = merged
-        .iter()
-        .map(|&k| {
-            let host = hosts[k].0.map_or("ground", |host| &model.links[host].name);
-            format!("`{}` in `{host}`", model.links[k].name)
-        })
-        .collect();
+    let name = |&k: &usize| {
+        let host = hosts[k].0.map_or("ground", |host| &model.links[host].name);
+        format!("`{}` in `{host}`", model.links[k].name)
+    };
+    let names: Vec<String> = merged.iter().map(name).collect();
     findings.remarks.push(format!(
         "Fixed links are parts of the bodies that they are fixed to (--keep-fixed keeps them): {}.",
         names.join(", ")
     ));
     for &link in &merged {
-        let (host, pose) = hosts[link];
-        let own = model.links[link].clone();
-        if let Some(host) = host {
-            let seen = own.mass.seen(&pose);
-            let whole = &mut model.links[host];
-            // Weight that is held acts on the whole: as a mean by mass.
-            let held = whole.held_weight * whole.mass.mass + own.held_weight * seen.mass;
-            whole.mass = whole.mass.plus(&seen);
-            if held != 0.0 && whole.mass.mass > 0.0 {
-                whole.held_weight = held / whole.mass.mass;
-            }
-        }
-        let name = own.name;
-        model.frames.push(Frame {
-            name,
-            link: Some(link),
-            pose: Isometry3::identity(),
-        });
+        absorb(model, link, &hosts[link]);
     }
     // Bodies that stay, by their new numbers.
     let mut numbers = vec![None; hosts.len()];
-    let stay = (0..hosts.len()).filter(|&k| hosts[k].0 == Some(k));
+    let stay = (0..hosts.len()).filter(|k| !is_merged(k));
     for (new, old) in stay.enumerate() {
         numbers[old] = Some(new);
     }
@@ -82,27 +41,11 @@ pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut
         (host.and_then(|host| numbers[host]), pose)
     };
     let mut kept = vec![None; model.joints.len()];
-    let joints = std::mem::take(&mut model.joints);
-    for (k, mut joint) in joints.into_iter().enumerate() {
-        let places = [place(joint.links[0]), place(joint.links[1])];
-        let was_merged = joint.places && joint.links[1].is_some_and(|link| numbers[link].is_none());
-        if was_merged {
+    for (k, mut joint) in std::mem::take(&mut model.joints).into_iter().enumerate() {
+        if joint.places && joint.links[1].is_some_and(|link| numbers[link].is_none()) {
             continue;
         }
-        for side in 0..2 {
-            let (link, pose) = places[side];
-            joint.links[side] = link;
-            if pose != Isometry3::identity() {
-                joint.points[side] = pose.translation.vector + pose.rotation * joint.points[side];
-                joint.axes[side] = pose.rotation * joint.axes[side];
-                if side == 1 {
-                    joint.cross = pose.rotation * joint.cross;
-                }
-                if let Some(frames) = &mut joint.frames {
-                    frames[side] = pose.rotation * frames[side];
-                }
-            }
-        }
+        move_ends(&mut joint, place);
         if joint.links[0] == joint.links[1] {
             findings.remarks.push(format!(
                 "Joint `{}` is between parts of one body, so it is left out.",
@@ -130,9 +73,71 @@ pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut
         frame.link = link;
         frame.pose = pose * frame.pose;
     }
-    let flags: Vec<bool> = numbers.iter().map(Option::is_some).collect();
-    let mut flag = flags.iter();
-    model.links.retain(|_| flag.next().copied().unwrap_or(true));
-    let mut flag = flags.iter();
-    motions.retain(|_| flag.next().copied().unwrap_or(true));
+    let mut flags = numbers.iter().map(Option::is_some);
+    model.links.retain(|_| flags.next().unwrap_or(true));
+    let mut flags = numbers.iter().map(Option::is_some);
+    motions.retain(|_| flags.next().unwrap_or(true));
+}
+
+/// Where the axes of each link go: along fixed joints that place it, as far as they lead.
+fn hosts(model: &Model) -> Vec<Host> {
+    let before = placing(model);
+    let fixed = |link: usize| {
+        let joint = before[link].map(|joint| &model.joints[joint])?;
+        let merges = joint.kind == JointKind::Fixed && joint.is_active && joint.frames.is_none();
+        merges.then_some(joint.links[0])
+    };
+    let host = |link: usize| {
+        let (mut host, mut steps) = (Some(link), 0);
+        while let Some(parent) = host.and_then(fixed) {
+            host = parent;
+            steps += 1;
+            if steps > model.links.len() {
+                return (Some(link), Isometry3::identity());
+            }
+        }
+        if host == Some(link) {
+            return (host, Isometry3::identity());
+        }
+        (host, model.pose(host).inverse() * model.links[link].pose)
+    };
+    (0..model.links.len()).map(host).collect()
+}
+
+/// Adds the mass of a link to that of its host, and its name to the frames.
+fn absorb(model: &mut Model, link: usize, (host, pose): &Host) {
+    let own = model.links[link].clone();
+    if let Some(host) = *host {
+        let seen = own.mass.seen(pose);
+        let whole = &mut model.links[host];
+        // Weight that is held acts on the whole: as a mean by mass.
+        let held = whole.held_weight * whole.mass.mass + own.held_weight * seen.mass;
+        whole.mass = whole.mass.plus(&seen);
+        if held != 0.0 && whole.mass.mass > 0.0 {
+            whole.held_weight = held / whole.mass.mass;
+        }
+    }
+    model.frames.push(Frame {
+        name: own.name,
+        link: Some(link),
+        pose: Isometry3::identity(),
+    });
+}
+
+/// Describes a joint in the axes of the hosts of its links.
+fn move_ends(joint: &mut Joint, place: impl Fn(Option<usize>) -> Host) {
+    for side in 0..2 {
+        let (link, pose) = place(joint.links[side]);
+        joint.links[side] = link;
+        if pose != Isometry3::identity() {
+            joint.points[side] = pose.translation.vector + pose.rotation * joint.points[side];
+            joint.axes[side] = pose.rotation * joint.axes[side];
+            if side == 1 {
+                joint.cross = pose.rotation * joint.cross;
+            }
+            if let Some(frames) = &mut joint.frames {
+                frames[side] = pose.rotation * frames[side];
+            }
+        }
+    }
 }

@@ -298,22 +298,7 @@ fn read_joint(
         findings.missing(element, "a `type`");
         return None;
     };
-    let mut end = |key: &str| {
-        let Some(child) = element.child(key) else {
-            findings.missing(element, &format!("a `<{key}>`"));
-            return None;
-        };
-        // In `<gazebo>` of a URDF the name may be an attribute.
-        let value = child.attribute("link").unwrap_or_else(|| child.text());
-        scope.link(&value, findings)
-    };
-    let (first, second) = (end("parent"), end("child"));
-    let links = [first?, second?];
-    if links[0] == links[1] {
-        let message = format!("joint `{name}` connects a link with itself");
-        findings.of(Fault::Structure, element, message);
-        return None;
-    }
+    let links = links_of(element, name, scope, findings)?;
     let in_second = match scope.frames.pose_of_joint(name) {
         Some(pose) => model.pose(links[1]).inverse() * pose,
         None => match element.child("pose") {
@@ -335,48 +320,7 @@ fn read_joint(
         Some(axis) => axis?,
         None => z,
     };
-    let word = kind.text.trim();
-    let pitch = || {
-        let metres = element.text_of("screw_thread_pitch");
-        let radians = element.text_of("thread_pitch");
-        (metres, radians)
-    };
-    let found = match word {
-        "revolute" | "continuous" => JointKind::Revolute,
-        "prismatic" => JointKind::Translational,
-        "ball" => JointKind::Spherical,
-        "fixed" => JointKind::Fixed,
-        "universal" | "revolute2" => JointKind::Universal,
-        "screw" => match pitch() {
-            (Some(value), _) => JointKind::Screw(findings.number(&value, NumberKind::Length)?),
-            (None, Some(value)) => {
-                let turns = findings.number(&value, NumberKind::Other)?;
-                if turns == 0.0 {
-                    findings.at(Fault::Range, &value, "a thread without a pitch");
-                    return None;
-                }
-                JointKind::Screw(-std::f64::consts::TAU / turns)
-            }
-            (None, None) => {
-                findings.missing(element, "a `<screw_thread_pitch>`");
-                return None;
-            }
-        },
-        "gearbox" => {
-            unsupported(
-                element,
-                "a `gearbox` is not read: write it as a `mimic`, or add a `coupling` to the scene",
-                findings,
-            );
-            return None;
-        }
-        other => {
-            let shown: String = other.chars().take(40).collect();
-            let message = format!("joint `{name}`: there is no type `{shown}`");
-            findings.at(Fault::Value, &kind, message);
-            return None;
-        }
-    };
+    let found = kind_of(element, name, &kind, findings)?;
     let mut joint = joint_between(model, name, found, links, in_second, first.direction);
     if found.measures().is_empty() {
         if first.load != Load::default() {
@@ -400,6 +344,79 @@ fn read_joint(
         model.joints.push(joint);
     }
     Some(())
+}
+
+/// The links of `<parent>` and `<child>`.
+fn links_of(
+    element: Element,
+    name: &str,
+    scope: &Scope,
+    findings: &mut Findings,
+) -> Option<[Option<usize>; 2]> {
+    let mut end = |key: &str| {
+        let Some(child) = element.child(key) else {
+            findings.missing(element, &format!("a `<{key}>`"));
+            return None;
+        };
+        // In `<gazebo>` of a URDF the name may be an attribute.
+        let value = child.attribute("link").unwrap_or_else(|| child.text());
+        scope.link(&value, findings)
+    };
+    let (first, second) = (end("parent"), end("child"));
+    let links = [first?, second?];
+    if links[0] == links[1] {
+        let message = format!("joint `{name}` connects a link with itself");
+        findings.of(Fault::Structure, element, message);
+        return None;
+    }
+    Some(links)
+}
+
+fn kind_of(
+    element: Element,
+    name: &str,
+    kind: &Value,
+    findings: &mut Findings,
+) -> Option<JointKind> {
+    Some(match kind.text.trim() {
+        "revolute" | "continuous" => JointKind::Revolute,
+        "prismatic" => JointKind::Translational,
+        "ball" => JointKind::Spherical,
+        "fixed" => JointKind::Fixed,
+        "universal" | "revolute2" => JointKind::Universal,
+        "screw" => JointKind::Screw(pitch_of(element, findings)?),
+        "gearbox" => {
+            unsupported(
+                element,
+                "a `gearbox` is not read: write it as a `mimic`, or add a `coupling` to the scene",
+                findings,
+            );
+            return None;
+        }
+        other => {
+            let shown: String = other.chars().take(40).collect();
+            let message = format!("joint `{name}`: there is no type `{shown}`");
+            findings.at(Fault::Value, kind, message);
+            return None;
+        }
+    })
+}
+
+/// The way of a screw in a turn.
+fn pitch_of(element: Element, findings: &mut Findings) -> Option<f64> {
+    if let Some(metres) = element.text_of("screw_thread_pitch") {
+        return findings.number(&metres, NumberKind::Length);
+    }
+    let Some(value) = element.text_of("thread_pitch") else {
+        findings.missing(element, "a `<screw_thread_pitch>`");
+        return None;
+    };
+    let turns = findings.number(&value, NumberKind::Other)?;
+    if turns == 0.0 {
+        findings.at(Fault::Range, &value, "a thread without a pitch");
+        return None;
+    }
+    Some(-std::f64::consts::TAU / turns)
 }
 
 fn read_axis(

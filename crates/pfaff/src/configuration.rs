@@ -16,7 +16,7 @@ use solvability::{
     Analysis, Choice, ChoiceError, Continuation, Contradiction, DeletableRows, Distribution,
     EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GenericVerdict, GroupVerdict,
     MomentVerdict, NamedChoice, NoFiniteReaction, Numbers, Proposals, Questions, ReactionNumber,
-    ReactionValues, ReactionVerdict, Rows, Sensitivities, Sensitivity, Solution, State, UnitCheck,
+    ReactionValues, ReactionVerdict, Rows, Sensitivities, Sensitivity, Solution, State,
     analyse_decided, analyse_dropping, analyse_with_progress, generic, generic_with_verdicts,
     is_locked, no_finite_reactions, second_order, solution,
 };
@@ -479,16 +479,6 @@ impl<'a> ConfigurationAnalysis<'a> {
             label,
             choice: choice.clone(),
         })
-    }
-
-    /// Which components are unique and which depend on a choice, determined by a change of units
-    /// and independently of the verdicts.
-    ///
-    /// # Errors
-    /// [`StudyError::Units`]: there is nothing to compare, or the rank depends on the units.
-    pub fn facts(&self) -> Result<Vec<UnitCheck>, StudyError> {
-        let solution = self.solution()?;
-        Ok(self.questions.facts(&self.state.v, &solution)?)
     }
 
     /// Contradictions between redundant rows, the largest first. Empty if the rank is undecided.

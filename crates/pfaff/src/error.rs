@@ -10,7 +10,7 @@ use report::{FileError, RunDocument, TableError};
 use scene::{CombinationError, Diagnostic};
 use solvability::{
     AlongError, AnalysisError, ChoiceError, Contradiction, EliminationError, ExplanationError,
-    RequestError, StateError, UnitError,
+    RequestError, StateError,
 };
 
 /// Reason why there are no results, or only a part of them.
@@ -111,9 +111,6 @@ pub enum StudyError {
     /// The choice among the solutions is not possible.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
-    /// It could not be determined which numbers are unique by a change of units.
-    #[error(transparent)]
-    Units(#[from] UnitError),
     /// A motion could not be analysed.
     #[error(transparent)]
     Along(#[from] AlongError),
@@ -154,7 +151,6 @@ impl StudyError {
             Self::Explanation(e) => e.code(),
             Self::Deletion(e) => e.code(),
             Self::Choice(e) => e.code(),
-            Self::Units(e) => e.code(),
             Self::Along(e) => e.code(),
             Self::File(e) => e.code(),
             Self::Table(e) => e.code(),
@@ -222,16 +218,13 @@ impl StudyError {
                 EliminationError::Deletion(DeletionError::RowOutOfRange { .. })
                     | EliminationError::Request(_)
             ),
-            Self::Choice(e) | Self::Units(UnitError::Choice(e)) => {
-                !matches!(e, ChoiceError::Undecided(_) | ChoiceError::Saddle(_))
-            }
+            Self::Choice(e) => !matches!(e, ChoiceError::Undecided(_) | ChoiceError::Saddle(_)),
             Self::Along(e) => matches!(e, AlongError::Times { .. }),
             Self::File(e) => e.is_place(),
             Self::State(_)
             | Self::Stopped { .. }
             | Self::Interrupted
             | Self::Explanation(_)
-            | Self::Units(_)
             | Self::Table(_) => false,
         }
     }

@@ -180,7 +180,7 @@ pub(crate) const POSE_FACTOR: f64 = 10.0;
 
 /// Coefficients below this are rounding, whatever is stated.
 /// Unit: coefficient of the scaled rows. Less: rounding joins rows. More: small coefficients do
-/// not. Test: none.
+/// not. Test: `an_open_row_joins_what_it_belongs_to_beyond_rounding`.
 pub const COEFFICIENT_ROUNDING: f64 = 1e-12;
 
 // Sparse ranks.

@@ -255,6 +255,27 @@ mod tests {
         assert_eq!(components(&decision).coloops, [0, 1, 2]);
     }
 
+    /// Row 3 is the mean of rows 0 and 2, and row 4 is `row 1 + x·row 2`, in whole multiples of
+    /// powers of two. A tolerance that leaves row 2 open joins them by row 2, if x is no rounding.
+    #[test]
+    fn an_open_row_joins_what_it_belongs_to_beyond_rounding() {
+        for (exponent, joined) in [(-37, vec![0, 1, 2, 3, 4]), (-44, vec![0, 2, 3])] {
+            let c = Matrix::from_rows(&[
+                [1.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [0.0, 0.0, 1.0],
+                [0.5, 0.0, 0.5],
+                [0.0, 1.0, 2_f64.powi(exponent)],
+            ]);
+            let exact = crate::certify_exact(&c).unwrap();
+            let mut decision = crate::with_dropped(&exact, &c, &[3, 4]).unwrap();
+            let certificate = decision.evidence.certificate.as_mut().unwrap();
+            certificate.has_tolerance = true;
+            certificate.open_rows = vec![2];
+            assert_eq!(open_rows(&decision), joined, "2^{exponent}");
+        }
+    }
+
     #[test]
     fn a_row_that_is_unique_is_in_no_circuit() {
         // Sixteen unit rows and their sum, in which the last has the coefficient x and fifteen have

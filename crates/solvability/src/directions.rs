@@ -1,6 +1,6 @@
 //! Bases of directions for readers: as many directions as possible along one component.
 
-use crate::limits::{LARGEST_ROUNDING, SHARE_OF_PIVOT, VISIBLE};
+use crate::limits::{SHARE_OF_PIVOT, VISIBLE};
 use model::space::norm;
 
 /// The same space with a basis in which every component that lies in it alone is a direction of its
@@ -25,7 +25,7 @@ pub(crate) fn readable(mut directions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         };
         directions.swap(done, best);
         let pivot = directions[done].clone();
-        if pivot[c].abs() <= LARGEST_ROUNDING {
+        if pivot[c] == 0.0 {
             break;
         }
         for (i, row) in directions.iter_mut().enumerate() {

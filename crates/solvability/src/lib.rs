@@ -16,7 +16,6 @@
 //! | [`frames`] | components in global, body and edge frames |
 //! | [`moments`] | moments about other points than the place |
 //! | [`choices`] | one solution among many, labelled |
-//! | [`units`] | distinguishes unique numbers from chosen ones by a change of units |
 //! | [`mod@analysis`] | ranks and verdicts of a mechanism of any size |
 //! | [`mod@parts`] | the parts of a mechanism on common cycles, each analysed separately |
 //! | `mechanism` | one part: joints, wrenches, directions |
@@ -73,7 +72,6 @@ mod sparse;
 pub mod state;
 pub mod stretches;
 pub mod structure;
-pub mod units;
 pub mod value;
 pub mod verdict;
 mod words;
@@ -137,6 +135,5 @@ pub use stretches::{
     Stretches, VerdictRecorder, VerdictStretch, VerdictTrack,
 };
 pub use structure::structure;
-pub use units::{Nature, UnitCheck, UnitError, Units, check_units};
 pub use value::{Datum, Label, NoFiniteReaction, Sensitivity, Value};
 pub use verdict::{Judgement, Verdict};

@@ -18,12 +18,13 @@ pub(crate) const TOLERANCE_ROWS: usize = 200;
 
 /// Coefficients that are larger belong to their dependency beyond doubt.
 /// Unit: coefficient of the equilibrated dependencies. Less: coefficients that the data could make
-/// zero are believed. More: time. Test: none.
+/// zero are believed. More: time. Test:
+/// `data_are_asked_about_small_coefficients_that_are_no_noise`.
 pub(crate) const COEFFICIENT_LARGE: f64 = 1e-3;
 
 /// Coefficients below this share of their noise are zero beyond doubt.
 /// Unit: share of the noise. Less: time. More: coefficients that the data could make large are
-/// called zero. Test: none.
+/// called zero. Test: `data_are_asked_about_small_coefficients_that_are_no_noise`.
 pub(crate) const SAFELY: f64 = 0.1;
 
 /// Coefficients of which it is asked what the rounding of the data makes of them.
@@ -35,7 +36,8 @@ pub(crate) const ASKED: usize = 2_000;
 pub(crate) const SPARSE_FROM: usize = 150;
 
 /// Combinations beyond the rows of the largest joint.
-/// Unit: combinations. Less: a rank is read from too few. More: time. Test: none.
+/// Unit: combinations. Less: a rank is read from too few. More: time. Test:
+/// `random_combinations_show_the_rank_of_the_largest_joint`.
 pub(crate) const SPARE_COMBINATIONS: usize = 4;
 
 /// A mechanism of at most so many rows is one part, whatever its cycles: all of its verdicts are
@@ -76,7 +78,8 @@ pub(crate) const LARGEST_TURN: f64 = 0.1;
 
 /// A part of a unit vector above this is reported, whatever a stated tolerance makes of it: without
 /// it the direction is another one.
-/// Unit: part of a unit vector. Less: small parts are none. More: rounding is reported. Test: none.
+/// Unit: part of a unit vector. Less: small parts are none. More: rounding is reported. Test:
+/// `a_part_of_a_direction_is_told_however_uncertain_coefficients_are`.
 pub(crate) const LARGEST_ROUNDING: f64 = 1e-5;
 
 // The intended mechanism.
@@ -143,7 +146,7 @@ pub(crate) const PAIRS: usize = 4;
 
 /// Rounding of an entry of a scaled C between unit vectors, in units of eps·√(m·n).
 /// Unit: eps·√(m·n). Less: rounding of an entry is a change of data. More: shares are too small.
-/// Test: none.
+/// Test: `a_misfit_above_the_rounding_of_entries_is_one_of_data`.
 pub(crate) const ENTRY_ROUNDINGS: f64 = 16.0;
 
 /// Poses to each side.
@@ -203,7 +206,7 @@ pub(crate) const CONE_RESOLVED: f64 = 1e-5;
 
 /// No weight falls below this share of the largest: changes that are not needed stay available.
 /// Unit: share of the largest weight. Less: normal equations lose their digits. More: changes that
-/// are not needed remain. Test: none.
+/// are not needed remain. Test: `numbers_that_need_no_change_stay_out_of_the_bounds`.
 pub(crate) const LEAST_WEIGHT: f64 = 1e-9;
 
 /// The difference of two results that agree, as a share of the size: what nonholonomic rows hold is
@@ -359,7 +362,7 @@ pub(crate) const NARROWING: f64 = 0.25;
 /// A sample that is singular relative to the best one of the motion is not regular, whatever its
 /// value.
 /// Unit: share of the largest singular value. Less: samples near a singular pose are regular. More:
-/// motions without regular samples. Test: none.
+/// motions without regular samples. Test: `a_motion_near_a_singular_pose_has_regular_samples`.
 pub(crate) const REGULAR_SAMPLE: f64 = 0.1;
 
 /// A minimum, with a sample more on each side, is divided once more into so many intervals.
@@ -374,15 +377,18 @@ pub(crate) const FINER: u8 = 16;
 pub(crate) const SINGULAR_INSTANT: f64 = 1e-6;
 
 /// A frame has turned too far to compare signs if its overlap is below this.
-/// Unit: volume. Less: signs of turned frames are compared. More: time. Test: none.
+/// Unit: volume. Less: signs of turned frames are compared. More: time. Test:
+/// `two_passages_between_samples_show_in_a_turned_motion`.
 pub(crate) const OVERLAP: f64 = 0.5;
 
 /// A determinant that has fallen to this share may have passed zero twice.
-/// Unit: share of the determinant. Less: double passages are missed. More: time. Test: none.
+/// Unit: share of the determinant. Less: double passages are missed. More: time. Test:
+/// `two_passages_between_samples_show_in_a_small_determinant`.
 pub(crate) const MAY_PASS: f64 = 0.1;
 
 /// An interval between samples is halved as often at most.
-/// Unit: halvings. Less: passages near each other are missed. More: time. Test: none.
+/// Unit: halvings. Less: passages near each other are missed. More: time. Test:
+/// `passages_are_found_that_are_two_thousandths_apart`.
 pub(crate) const SAMPLE_HALVINGS: usize = 8;
 
 /// Between two samples C is no farther from the first than this times their distance: a motion is
@@ -559,10 +565,10 @@ pub(crate) const AT_REST: f64 = 1e-10;
 /// Joints and bodies × freedoms² up to which a motion of few joints is looked for from every joint;
 /// beyond, from as many as this allows.
 /// Unit: joints and bodies times freedoms². Less: motions of few joints are missed. More: time.
-/// Test: none.
+/// Test: `the_motion_of_fewest_joints_comes_first`.
 pub(crate) const TRIALS: usize = 2_000_000;
 
-// Reactions by a choice, units, sensitivity.
+// Reactions by a choice, sensitivity.
 
 /// A number is known to so many roundings of the largest multiplier, each measured by its row.
 /// Unit: roundings of the largest multiplier. Less: rounding is shown. More: digits are not. Test:
@@ -578,15 +584,6 @@ pub(crate) const AGREEMENT: f64 = 1e-9;
 /// The first solve leaves its own rounding; the second removes what of it matters.
 /// Unit: solves. Less: rounding of the first remains. More: time. Test: `beam_on_three_springs`.
 pub(crate) const CHOICE_SOLVES: usize = 2;
-
-/// A change below this share of the largest force or torque is rounding.
-/// Unit: share of the largest force or torque. Less: rounding depends on units. More: what depends
-/// on units is called a fact. Test: `facts_do_not_depend_on_units`.
-pub(crate) const UNIT_ROUNDING: f64 = 1e-9;
-
-/// The unit of one joint alone is this much smaller than that of the others.
-/// Unit: 1. Less: a choice does not show. More: rounding does. Test: none.
-pub(crate) const OF_ONE_JOINT: f64 = 1e3;
 
 /// A point moves by this share of the mechanism's size (in long chains: of the size of its links),
 /// a direction by as many radians: what a careful workshop holds.
@@ -682,7 +679,7 @@ pub(crate) const MANY: f64 = 30.0;
 /// A load below this share of what would stop the bodies within the size of the mechanism,
 /// m·v²/size, is the rounding of a motion without any.
 /// Unit: share of what stops the bodies. Less: rounding is a load. More: small loads are none.
-/// Test: none.
+/// Test: `a_small_load_beside_a_fast_motion_is_a_load`.
 pub(crate) const LOAD_ROUNDING: f64 = 1e-9;
 
 /// Points move by a share of the size of the mechanism, but at most by that of so many times the

@@ -17,14 +17,13 @@ use rayon::prelude::*;
 
 use crate::analysis::Analysis;
 use crate::choices::{
-    Choice, ChoiceError, Distribution, Equations, ReactionValues, Solution, label, not_finite,
+    Choice, ChoiceError, Distribution, ReactionValues, Solution, label, not_finite,
 };
 use crate::explain::{Explanation, ExplanationError, explain};
 use crate::frames::FrameVerdict;
 use crate::groups::{Configuration, Group, GroupVerdict, NO_REACTION, RequestError, Term};
 use crate::moments::MomentVerdict;
 use crate::parts::{ListedRows, PartAnalysis};
-use crate::units::{UnitCheck, UnitError, check_equations};
 use crate::value::Value;
 use crate::verdict::{Judgement, Verdict, worst};
 
@@ -456,39 +455,6 @@ impl<'a> Questions<'a> {
         }
         rigid.sort_unstable();
         Ok(rigid)
-    }
-
-    /// Which components are unique and which depend on a choice, determined by a change of units
-    /// and independently of the verdicts.
-    ///
-    /// # Errors
-    /// As [`crate::check_units`], and [`RequestError::Large`].
-    pub fn facts(&self, v: &[f64], solution: &Solution) -> Result<Vec<UnitCheck>, UnitError> {
-        let time = self.analysis.time;
-        let of_part = |k: usize| {
-            let extent = &self.parts()[k].extent;
-            let configuration = self.configuration(k)?;
-            let equations = if extent.is_whole() {
-                Equations::of(self.mechanism, time, &self.q, v)?
-            } else {
-                let state = (time, &self.q[..], v);
-                Equations::of_part(&configuration.reactions.mechanism, extent, state, solution)?
-            };
-            let mut checks = check_equations(configuration, &equations)?;
-            for check in &mut checks {
-                check.id = ConstraintId(extent.group(check.id.0));
-            }
-            Ok(checks)
-        };
-        let parts: Vec<Result<_, UnitError>> = (0..self.parts().len())
-            .into_par_iter()
-            .map(of_part)
-            .collect();
-        let parts = parts.into_iter().collect::<Result<Vec<_>, _>>()?;
-        let mut checks: Vec<UnitCheck> = parts.into_iter().flatten().collect();
-        // Ordered by joint; the sort is stable, so the components of one joint keep their order.
-        checks.sort_by_key(|check| check.id.0);
-        Ok(checks)
     }
 
     /// Explains why the reactions are not unique. Parts whose rank is undecided, or that are too

@@ -144,3 +144,53 @@ pub(crate) fn sketch_of(mechanism: &Mechanism) -> Sketch {
         ..default
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use joints::space3::{Axes, Fixed};
+    use linalg::PivotedQr;
+    use model::{BodyRef, SpatialBody, SpatialDescription};
+
+    /// The rank of six rows is read from as many random combinations as the mechanism gets. The
+    /// least pivot of two thousand such reads is far above that of nearly square matrices, whose
+    /// smallest singular value is below δ with a probability of the order of δ to the power of one
+    /// more than the number of spare columns (A. Edelman, SIAM J. Matrix Anal. Appl. 9 (1988)
+    /// 543–560).
+    #[test]
+    fn random_combinations_show_the_rank_of_the_largest_joint() {
+        let mut d = SpatialDescription::new("plate");
+        let tensor = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let plate = d.body(SpatialBody::new("plate", 1.0, tensor));
+        let axes = Axes::new([0.0, 0.0, 1.0], None).expect("a direction");
+        let weld = Fixed {
+            s_i: [0.0; 3],
+            s_j: [0.0; 3],
+            axes,
+            axes_j: axes,
+        };
+        d.joint("weld", &[BodyRef::Ground, plate], weld);
+        let mechanism = Mechanism::build(&d).expect("builds");
+        let rows = mechanism.layout().rows();
+        let combinations = sketch_of(&mechanism).columns;
+        let mut state = 1_u64;
+        // The sum of twelve uniform numbers.
+        let mut normal = || {
+            let mut sum = -6.0;
+            for _ in 0..12 {
+                state = state
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1);
+                sum += (state >> 11) as f64 / (1_u64 << 53) as f64;
+            }
+            sum
+        };
+        let mut least = f64::INFINITY;
+        for _ in 0..2000 {
+            let random = Matrix::from_fn(rows, combinations, |_, _| normal());
+            let pivots = PivotedQr::of_rows(random);
+            least = pivots.r_diagonal().map(f64::abs).fold(least, f64::min);
+        }
+        assert!(rows == 6 && least > 0.1, "{rows} rows: {least}");
+    }
+}

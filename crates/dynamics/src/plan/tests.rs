@@ -259,6 +259,33 @@ fn interpolated_rows_are_those_on_the_constraints_to_the_tolerance() {
     assert!(0.0 < largest && largest < 1e-6, "{largest:e}");
 }
 
+/// A mass of 1 kg on a spring of 1 N/m, let go at 1 m and at 10 µm: `x = x₀·cos t`, which runs
+/// without stated tolerances follow to a part in 10⁷, and to a nanometre.
+#[test]
+fn motions_without_stated_tolerances_have_the_digits_that_are_read() {
+    for (x_0, most) in [(1.0, 1e-7), (1e-5, 1e-9)] {
+        let p = scene(|d| {
+            d.gravity = [0.0; 2];
+            d.bodies.push(body("mass", [1.0 + x_0, 0.0]));
+            let spring = SpringDamper::new([-9.0, 0.0], [0.0; 2], 1.0, 0.0);
+            d.forces.push(Force {
+                name: "spring".into(),
+                bodies: vec![GROUND, BodyRef::Body(0)],
+                element: Box::new(spring.with_free_length(10.0)),
+                functions: Vec::new(),
+            });
+        });
+        let mut largest = 0.0_f64;
+        let plan = Plan::new(&p, &to(20.0), &OutputRequest::default()).expect("a plan");
+        plan.simulate(|sample| {
+            largest = largest.max((sample.q[0] - 1.0 - x_0 * sample.t.cos()).abs());
+            Ok(ControlFlow::Continue(()))
+        })
+        .expect("moves");
+        assert!(largest < most, "{x_0}: {largest:e}");
+    }
+}
+
 /// One row: time, q, v, accelerations, reactions.
 type Row = (f64, Vec<f64>, Vec<f64>, Vec<f64>, Vec<model::Reaction>);
 

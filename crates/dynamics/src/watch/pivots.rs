@@ -54,3 +54,36 @@ pub(super) fn are_lost(rows: &KeptRows) -> bool {
 fn are_poor(rows: &mut KeptRows, at: &Evaluation<'_>) -> bool {
     !rows.dropped.is_empty() && rows.largest_coefficient(at) > LARGE_COEFFICIENT
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prepare;
+    use crate::solve::Evaluation;
+    use joints::{Line, PointOnLine};
+    use model::{Body, Description, Mechanism, StartOptions};
+
+    /// A beam on rollers at 0, ε and 1, of which the last is dropped:
+    /// `row 2 = (1 − 1/ε)·row 0 + 1/ε·row 1`.
+    #[test]
+    fn rows_that_multiply_their_rounding_are_exchanged() {
+        for (epsilon, wants) in [(0.2, false), (0.05, true)] {
+            let mut d = Description::new("beam");
+            let beam = d.body(Body::new("beam", 1.0, 1.0));
+            let line = Line::new([0.0; 2], [1.0, 0.0]).expect("a line");
+            for (name, x) in [("left", 0.0), ("middle", epsilon), ("right", 1.0)] {
+                d.joint(name, &[beam], PointOnLine { s: [x, 0.0], line });
+            }
+            let mechanism = Mechanism::build(&d).expect("builds");
+            let choice = RowChoice::Drop(vec![2]);
+            let p = prepare(mechanism, &StartOptions::default(), &choice).expect("starts");
+            let at = Evaluation::new(&p.mechanism, p.assembly.size);
+            let [velocity, position] = [&p.decision, &p.position_decision]
+                .map(|rows| KeptRows::new(&at, rows, 2).expect("two rows"));
+            let mut equations = KeptEquations::new(at, velocity, position);
+            equations.factor_at(0.0, &p.q).expect("independent rows");
+            let found = want_exchange(&mut equations, &RowChoice::Automatic);
+            assert_eq!(found, wants, "{epsilon}");
+        }
+    }
+}

@@ -10,7 +10,7 @@ use crate::limits::{DEEPEST, PERPENDICULAR};
 use crate::mass::Mass;
 use crate::mechanism::{Frame, Joint, JointKind, Link, Load};
 use crate::solids::FRICTION;
-use crate::xml::Element;
+use crate::xml::{Element, Value};
 
 /// A joint of the file, in the axes of its body.
 struct MjcfJoint {
@@ -20,6 +20,19 @@ struct MjcfJoint {
     axis: Vector3<f64>,
     zero: f64,
     load: Load,
+}
+
+/// What the file says of a joint.
+struct GivenJoint<'a> {
+    element: Element<'a>,
+    kind: Option<Value<'a>>,
+    /// `ref`, `springref` and `range`.
+    coordinates: [Option<Value<'a>>; 3],
+    /// `stiffness`, `damping` and `armature`.
+    loads: [Option<Value<'a>>; 3],
+    limited: Option<Value<'a>>,
+    friction: Option<Value<'a>>,
+    tuned: Option<Value<'a>>,
 }
 
 impl<'a> Reader<'a, '_> {
@@ -197,59 +210,19 @@ impl<'a> Reader<'a, '_> {
     /// A joint of a body; `None` if it cannot be read.
     fn freedom(&mut self, item: &Item<'a>, body: &str, is_outer: bool) -> Option<MjcfJoint> {
         let element = item.element;
-        let name = element
-            .attribute("name")
-            .map(|name| name.text.trim().to_owned());
-        let given = name.filter(|name| !name.is_empty());
-        let is_given = given.is_some();
-        let count = self.model.joints.len() + 1;
-        let name = given.unwrap_or_else(|| format!("joint {count} of {body}"));
-        if is_given && !self.names.insert(name.clone()) {
-            let message = format!("the joint `{name}` is there already");
-            self.source.findings.of(Fault::Twice, element, message);
-        }
+        let name = self.name_of_joint(element, body);
         let attributes = self.source.attributes(element, item.class);
-        let keys = [
-            "type",
-            "pos",
-            "axis",
-            "ref",
-            "springref",
-            "stiffness",
-            "damping",
-            "armature",
-        ];
-        let [
-            kind,
-            pos,
-            axis,
-            zero,
-            reference,
-            stiffness,
-            damping,
-            armature,
-        ] = keys.map(|key| attributes.get(key));
-        let [range, limited, friction, tuned] =
-            ["range", "limited", "frictionloss", "springdamper"].map(|key| attributes.get(key));
-        let word = kind.as_ref().map_or("hinge", |value| value.text.trim());
-        let kind = match (element.name(), word) {
-            ("freejoint", _) | (_, "free") => JointKind::Free,
-            (_, "hinge") => JointKind::Revolute,
-            (_, "slide") => JointKind::Translational,
-            (_, "ball") => JointKind::Spherical,
-            (_, other) => {
-                let shown: String = other.chars().take(40).collect();
-                let message = format!("joint `{name}`: there is no type `{shown}`");
-                self.source.findings.of(Fault::Value, element, message);
-                return None;
-            }
+        let given = GivenJoint {
+            element,
+            kind: attributes.get("type"),
+            coordinates: ["ref", "springref", "range"].map(|key| attributes.get(key)),
+            loads: ["stiffness", "damping", "armature"].map(|key| attributes.get(key)),
+            limited: attributes.get("limited"),
+            friction: attributes.get("frictionloss"),
+            tuned: attributes.get("springdamper"),
         };
-        if kind == JointKind::Free && !is_outer {
-            let message = format!("joint `{name}`: only bodies of the world may be free");
-            self.source.findings.of(Fault::Structure, element, message);
-            return None;
-        }
-        let is_free_element = element.name() == "freejoint";
+        let [pos, axis] = ["pos", "axis"].map(|key| attributes.get(key));
+        let kind = self.kind_of(&given, &name, is_outer)?;
         let point = pos.and_then(|value| self.source.findings.vector(&value, NumberKind::Length));
         let axis = match axis {
             Some(value) if matches!(kind, JointKind::Revolute | JointKind::Translational) => {
@@ -257,100 +230,8 @@ impl<'a> Reader<'a, '_> {
             }
             _ => Vector3::z(),
         };
-        let angle = if kind == JointKind::Revolute {
-            self.source.compiler.angle
-        } else {
-            1.0
-        };
-        let mut number = |value: Option<crate::xml::Value<'a>>| {
-            let number = value.map(|value| {
-                self.source
-                    .findings
-                    .numbers(&value, [1, 16], NumberKind::Other)
-            });
-            number.flatten().unwrap_or_else(|| vec![0.0])
-        };
-        let of_angle = [&zero, &reference, &range].map(|value| (*value).clone());
-        let [zero, reference] = [number(zero)[0] * angle, number(reference)[0] * angle];
-        let [stiffness, damping, armature] = [number(stiffness), number(damping), number(armature)];
-        if kind == JointKind::Revolute && self.source.compiler.angle != 1.0 {
-            for value in of_angle.iter().flatten() {
-                let words = value.text.split_whitespace();
-                let angles: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
-                self.source.findings.look_for_radians(value, &angles);
-            }
-        }
-        let line = element.line();
-        let mut leave = |kind: &'static str| {
-            self.source
-                .findings
-                .leave(kind, name.clone(), element.source, line);
-        };
-        if stiffness[1..]
-            .iter()
-            .chain(&damping[1..])
-            .any(|x| *x != 0.0)
-        {
-            leave("nonlinear terms of springs and dampers");
-        }
-        if tuned.is_some_and(|value| value.text.split_whitespace().any(|x| x != "0"))
-            && !is_free_element
-        {
-            leave("springs that are tuned by `springdamper`");
-        }
-        let has_range =
-            range.is_some() || limited.as_ref().is_some_and(|v| v.text.trim() == "true");
-        let is_off = limited.as_ref().is_some_and(|v| v.text.trim() == "false");
-        let is_on = limited.as_ref().is_some_and(|v| v.text.trim() == "true");
-        if has_range
-            && !is_off
-            && (self.source.compiler.auto_limits || is_on)
-            && kind != JointKind::Free
-        {
-            leave("limits of joints");
-        }
-        if friction.is_some_and(|value| value.text.trim().parse() != Ok(0.0)) && !is_free_element {
-            leave(FRICTION);
-        }
-        let mut load = Load {
-            stiffness: stiffness[0],
-            damping: damping[0],
-            reference,
-            armature: armature[0],
-        };
-        if [load.stiffness, load.damping, load.armature]
-            .iter()
-            .any(|x| *x < 0.0)
-        {
-            let message =
-                format!("joint `{name}`: stiffness, damping and armature are not negative");
-            self.source.findings.of(Fault::Range, element, message);
-            return None;
-        }
-        if kind == JointKind::Free {
-            if load
-                != (Load {
-                    reference,
-                    ..Load::default()
-                })
-                && !is_free_element
-            {
-                leave("springs, dampers and armatures of free bodies");
-            }
-            load = Load::default();
-        }
-        if kind == JointKind::Spherical {
-            if load.damping != 0.0 {
-                leave("dampers of spherical joints: accelerations differ where they turn");
-            }
-            if load.armature != 0.0 {
-                leave("armatures of spherical joints: accelerations differ");
-            }
-            load = Load {
-                stiffness: load.stiffness,
-                ..Load::default()
-            };
-        }
+        let [zero, reference] = self.coordinates_of(&given, kind);
+        let load = self.load_of(&given, (kind, &name), reference)?;
         let point = item.frame.translation.vector + item.frame.rotation * point.unwrap_or_default();
         let axis = if item.frame.rotation == UnitQuaternion::identity() {
             axis
@@ -365,6 +246,141 @@ impl<'a> Reader<'a, '_> {
             zero,
             load,
         })
+    }
+
+    fn name_of_joint(&mut self, element: Element<'a>, body: &str) -> String {
+        let given = element.attribute("name");
+        let given = given.map(|name| name.text.trim()).unwrap_or_default();
+        if given.is_empty() {
+            return format!("joint {} of {body}", self.model.joints.len() + 1);
+        }
+        if !self.names.insert(given.to_owned()) {
+            let message = format!("the joint `{given}` is there already");
+            self.source.findings.of(Fault::Twice, element, message);
+        }
+        given.to_owned()
+    }
+
+    fn kind_of(&mut self, given: &GivenJoint<'a>, name: &str, is_outer: bool) -> Option<JointKind> {
+        let word = given.kind.as_ref();
+        let word = word.map_or("hinge", |value| value.text.trim());
+        let (fault, message) = match (given.element.name(), word) {
+            ("freejoint", _) | (_, "free") if is_outer => return Some(JointKind::Free),
+            ("freejoint", _) | (_, "free") => {
+                let message = format!("joint `{name}`: only bodies of the world may be free");
+                (Fault::Structure, message)
+            }
+            (_, "hinge") => return Some(JointKind::Revolute),
+            (_, "slide") => return Some(JointKind::Translational),
+            (_, "ball") => return Some(JointKind::Spherical),
+            (_, other) => {
+                let shown: String = other.chars().take(40).collect();
+                let message = format!("joint `{name}`: there is no type `{shown}`");
+                (Fault::Value, message)
+            }
+        };
+        self.source.findings.of(fault, given.element, message);
+        None
+    }
+
+    /// The coordinate in the axes of the file, and that at which the spring is without a load.
+    fn coordinates_of(&mut self, given: &GivenJoint<'a>, kind: JointKind) -> [f64; 2] {
+        let [zero, reference, _] = &given.coordinates;
+        let coordinates = [zero, reference].map(|value| self.numbers_of(value)[0]);
+        let angle = self.source.compiler.angle;
+        if kind != JointKind::Revolute || angle == 1.0 {
+            return coordinates;
+        }
+        for value in given.coordinates.iter().flatten() {
+            let words = value.text.split_whitespace();
+            let angles: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
+            self.source.findings.look_for_radians(value, &angles);
+        }
+        coordinates.map(|x| x * angle)
+    }
+
+    /// The numbers of a value, one zero without it.
+    fn numbers_of(&mut self, value: &Option<Value<'a>>) -> Vec<f64> {
+        let findings = &mut *self.source.findings;
+        let numbers = value.as_ref();
+        let numbers = numbers.and_then(|value| findings.numbers(value, [1, 16], NumberKind::Other));
+        numbers.unwrap_or_else(|| vec![0.0])
+    }
+
+    /// The load on the coordinate; what else acts on it is left out.
+    fn load_of(
+        &mut self,
+        given: &GivenJoint<'a>,
+        (kind, name): (JointKind, &str),
+        reference: f64,
+    ) -> Option<Load> {
+        let element = given.element;
+        let [stiffness, damping, armature] =
+            given.loads.each_ref().map(|value| self.numbers_of(value));
+        let (line, auto_limits) = (element.line(), self.source.compiler.auto_limits);
+        let findings = &mut *self.source.findings;
+        let mut leave = |kind: &'static str| {
+            findings.leave(kind, name.to_owned(), element.source, line);
+        };
+        if stiffness[1..]
+            .iter()
+            .chain(&damping[1..])
+            .any(|x| *x != 0.0)
+        {
+            leave("nonlinear terms of springs and dampers");
+        }
+        let is_tuned = |value: &Value| value.text.split_whitespace().any(|x| x != "0");
+        let is_free_element = element.name() == "freejoint";
+        if given.tuned.as_ref().is_some_and(is_tuned) && !is_free_element {
+            leave("springs that are tuned by `springdamper`");
+        }
+        let limited = given.limited.as_ref().map(|value| value.text.trim());
+        let has_limits = match limited {
+            Some("true") => true,
+            Some("false") => false,
+            _ => auto_limits && given.coordinates[2].is_some(),
+        };
+        if has_limits && kind != JointKind::Free {
+            leave("limits of joints");
+        }
+        let has_friction = |value: &Value| value.text.trim().parse() != Ok(0.0);
+        if given.friction.as_ref().is_some_and(has_friction) && !is_free_element {
+            leave(FRICTION);
+        }
+        let load = Load {
+            stiffness: stiffness[0],
+            damping: damping[0],
+            reference,
+            armature: armature[0],
+        };
+        let numbers = [load.stiffness, load.damping, load.armature];
+        if numbers.iter().any(|x| *x < 0.0) {
+            let message =
+                format!("joint `{name}`: stiffness, damping and armature are not negative");
+            findings.of(Fault::Range, element, message);
+            return None;
+        }
+        match kind {
+            JointKind::Free => {
+                if numbers != [0.0; 3] && !is_free_element {
+                    leave("springs, dampers and armatures of free bodies");
+                }
+                Some(Load::default())
+            }
+            JointKind::Spherical => {
+                if load.damping != 0.0 {
+                    leave("dampers of spherical joints: accelerations differ where they turn");
+                }
+                if load.armature != 0.0 {
+                    leave("armatures of spherical joints: accelerations differ");
+                }
+                Some(Load {
+                    stiffness: load.stiffness,
+                    ..Load::default()
+                })
+            }
+            _ => Some(load),
+        }
     }
 
     /// Scales all masses, where `<compiler>` gives their sum.

@@ -9,6 +9,13 @@ use crate::mass::{Mass, Solid};
 use crate::pose::along_z;
 use crate::xml::{Element, Value};
 
+/// What gives a geom its mass.
+#[derive(Clone, Copy)]
+enum Weight {
+    Mass(f64),
+    Density(f64),
+}
+
 /// Geometry of geoms.
 pub(super) struct Geoms;
 
@@ -32,6 +39,30 @@ impl Geoms {
         }
         Some(((a + b) * 0.5, along_z(unit(along)), 0.5 * length))
     }
+}
+
+/// The solid of a type and size, or why there is none.
+fn solid_of(word: &str, size: &[f64]) -> Result<Solid, (Fault, String)> {
+    let solid = match (word, size) {
+        ("sphere", &[radius, ..]) => Solid::Sphere { radius },
+        ("capsule", &[radius, half, ..]) => Solid::Capsule { radius, half },
+        ("cylinder", &[radius, half, ..]) => Solid::Cylinder { radius, half },
+        ("ellipsoid", &[a, b, c]) => Solid::Ellipsoid { half: [a, b, c] },
+        ("box", &[a, b, c]) => Solid::Box { half: [a, b, c] },
+        ("sphere" | "capsule" | "cylinder" | "ellipsoid" | "box", _) => {
+            let message = format!("a {word} needs more numbers in its `size`");
+            return Err((Fault::Missing, message));
+        }
+        _ => {
+            let shown: String = word.chars().take(40).collect();
+            return Err((Fault::Value, format!("there is no geom of type `{shown}`")));
+        }
+    };
+    if size.iter().all(|x| *x > 0.0) {
+        return Ok(solid);
+    }
+    let message = format!("the `size` of a {word} has to be positive");
+    Err((Fault::Range, message))
 }
 
 impl<'a> Source<'a, '_> {
@@ -75,24 +106,7 @@ impl<'a> Source<'a, '_> {
                 .position(|k| *k == key)
                 .and_then(|k| values[k].clone())
         };
-        if let Some(group) = get("group") {
-            let group = self.findings.number(&group, NumberKind::Other)?;
-            let [first, last] = self.compiler.groups;
-            if group < first || group > last {
-                return None;
-            }
-        }
-        let given = match get("mass") {
-            Some(value) => Some(self.findings.not_negative(&value, NumberKind::Other)?),
-            None => None,
-        };
-        let density = match get("density") {
-            Some(value) => self.findings.not_negative(&value, NumberKind::Other)?,
-            None => DENSITY,
-        };
-        if given == Some(0.0) || (given.is_none() && density == 0.0) {
-            return None;
-        }
+        let weight = self.weight_of(&get)?;
         let digits = (self.findings.lengths, self.findings.directions);
         let mut pose = self.compiler.pose(get, self.findings);
         (self.findings.lengths, self.findings.directions) = digits;
@@ -112,11 +126,10 @@ impl<'a> Source<'a, '_> {
             self.findings.of(Fault::Unsupported, item.element, message);
             return None;
         }
-        let size = match get("size") {
+        let mut size = match get("size") {
             Some(value) => self.findings.numbers(&value, [1, 3], NumberKind::Other)?,
             None => Vec::new(),
         };
-        let mut size = size;
         if let Some(value) = get("fromto") {
             let (middle, axes, half) = Geoms::ends(&value, self.findings)?;
             pose = Isometry3::from_parts(middle.into(), axes);
@@ -126,30 +139,17 @@ impl<'a> Source<'a, '_> {
                 _ => vec![radius, half],
             };
         }
-        let solid = match (word, size.as_slice()) {
-            ("sphere", &[radius, ..]) => Solid::Sphere { radius },
-            ("capsule", &[radius, half, ..]) => Solid::Capsule { radius, half },
-            ("cylinder", &[radius, half, ..]) => Solid::Cylinder { radius, half },
-            ("ellipsoid", &[a, b, c]) => Solid::Ellipsoid { half: [a, b, c] },
-            ("box", &[a, b, c]) => Solid::Box { half: [a, b, c] },
-            ("sphere" | "capsule" | "cylinder" | "ellipsoid" | "box", _) => {
-                let message = format!("a {word} needs more numbers in its `size`");
-                self.findings.of(Fault::Missing, item.element, message);
-                return None;
-            }
-            _ => {
-                let shown: String = word.chars().take(40).collect();
-                let message = format!("there is no geom of type `{shown}`");
-                self.findings.of(Fault::Value, item.element, message);
+        let solid = match solid_of(word, &size) {
+            Ok(solid) => solid,
+            Err((fault, message)) => {
+                self.findings.of(fault, item.element, message);
                 return None;
             }
         };
-        if !size.iter().all(|x| *x > 0.0) {
-            let message = format!("the `size` of a {word} has to be positive");
-            self.findings.of(Fault::Range, item.element, message);
-            return None;
-        }
-        let mass = given.unwrap_or_else(|| density * solid.volume());
+        let mass = match weight {
+            Weight::Mass(mass) => mass,
+            Weight::Density(density) => density * solid.volume(),
+        };
         let moments = Matrix3::from_diagonal(&Vector3::from(solid.moments(mass)));
         let pose = item.frame * pose;
         Some(Mass::turned(
@@ -158,6 +158,28 @@ impl<'a> Source<'a, '_> {
             pose.rotation,
             moments,
         ))
+    }
+
+    /// `None` if the geom has no mass.
+    fn weight_of(&mut self, get: &impl Fn(&str) -> Option<Value<'a>>) -> Option<Weight> {
+        if let Some(group) = get("group") {
+            let group = self.findings.number(&group, NumberKind::Other)?;
+            let [first, last] = self.compiler.groups;
+            if group < first || group > last {
+                return None;
+            }
+        }
+        let given = match get("mass") {
+            Some(value) => Some(self.findings.not_negative(&value, NumberKind::Other)?),
+            None => None,
+        };
+        let density = match get("density") {
+            Some(value) => self.findings.not_negative(&value, NumberKind::Other)?,
+            None => DENSITY,
+        };
+        let weight = given.map_or(Weight::Density(density), Weight::Mass);
+        let (Weight::Mass(size) | Weight::Density(size)) = weight;
+        (size != 0.0).then_some(weight)
     }
 
     /// Notes that a geom may touch others.

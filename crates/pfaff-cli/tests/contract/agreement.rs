@@ -209,12 +209,3 @@ fn a_drive_that_the_joints_forbid_is_refused_by_all_commands() {
     let [check, _, simulate] = codes;
     assert_eq!([check, simulate], [Some(2); 2], "{said}");
 }
-
-/// Determined numbers are separated from those of a choice, in all units.
-#[test]
-fn a_choice_among_sleeves_is_told_from_facts() {
-    let output = with_scene(&["analyze", "-", "--choose", "minimum-norm"], TWO_SLEEVES);
-    let said = stdout(&output);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(!said.contains("does not distinguish"), "{said}");
-}

@@ -303,6 +303,10 @@ fn regular_motions<F: FnMut(f64) -> State>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    use joints::{Line, PointOnLine, Revolute};
+    use model::{Body, BodyRef, Description};
 
     #[test]
     fn a_minimum_lies_a_hundredth_below_a_neighbour() {
@@ -311,5 +315,96 @@ mod tests {
             let found = local_minima(&[0.0, 1.0, 2.0], &values);
             assert_eq!(found, expected, "{least}");
         }
+    }
+
+    /// A crank of one metre on a rod of one metre, whose end slides on the x axis: the crank at
+    /// 90° + δ leaves the end at −2·sin δ, and the rows lose their rank where δ passes zero.
+    fn passed(delta: impl Fn(f64) -> f64, times: &[f64]) -> Vec<f64> {
+        let mut d = Description::new("slider-crank");
+        let crank = d.body(Body::new("crank", 1.0, 1.0));
+        let rod = d.body(Body::new("rod", 1.0, 1.0));
+        let pin = |s_i: [f64; 2], s_j: [f64; 2]| Revolute { s_i, s_j };
+        d.joint("A", &[BodyRef::Ground, crank], pin([0.0; 2], [-0.5, 0.0]));
+        d.joint("B", &[crank, rod], pin([0.5, 0.0], [-0.5, 0.0]));
+        let line = Line::new([0.0; 2], [1.0, 0.0]).expect("a line");
+        d.joint(
+            "C",
+            &[rod],
+            PointOnLine {
+                s: [0.5, 0.0],
+                line,
+            },
+        );
+        let mechanism = Mechanism::build(&d).expect("builds");
+        let motion = |t: f64| {
+            let angle = FRAC_PI_2 + delta(t);
+            let (s, c) = angle.sin_cos();
+            let q = vec![0.5 * c, 0.5 * s, angle, 1.5 * c, 0.5 * s, -angle];
+            let h = 1e-6;
+            let rate = (delta(t + h) - delta(t - h)) / (2.0 * h);
+            let v = vec![
+                -0.5 * s * rate,
+                0.5 * c * rate,
+                rate,
+                -1.5 * s * rate,
+                0.5 * c * rate,
+                -rate,
+            ];
+            State { q, v }
+        };
+        let found = crate::along::singular_passages(&mechanism, motion, times).expect("a motion");
+        let mut times: Vec<f64> = found.iter().map(|passage| passage.time).collect();
+        times.sort_by(f64::total_cmp);
+        times
+    }
+
+    const SAMPLES: [f64; 3] = [0.0, 0.5, 1.0];
+
+    /// From 0 to 1 between the second sample and the third.
+    fn second_half(t: f64) -> f64 {
+        (2.0 * t - 1.0).max(0.0)
+    }
+
+    fn are_near(found: &[f64], expected: &[f64]) {
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-6;
+        let all = found.len() == expected.len() && found.iter().zip(expected).all(near);
+        assert!(all, "{found:?} for {expected:?}");
+    }
+
+    /// δ = 1.2·(t − 0.7)·(t − 0.99) has the same sign at all three samples.
+    #[test]
+    fn two_passages_between_samples_show_in_a_small_determinant() {
+        let found = passed(|t| 1.2 * (t - 0.7) * (t - 0.99), &SAMPLES);
+        are_near(&found, &[0.7, 0.99]);
+    }
+
+    /// A turn through both singular poses, δ = 0 and δ = π, ends with determinants of the same size
+    /// and sign, but the bodies move in other directions there.
+    #[test]
+    fn two_passages_between_samples_show_in_a_turned_motion() {
+        let (from, turn) = (-1.1, PI + 2.2);
+        let found = passed(|t| from + turn * second_half(t), &SAMPLES);
+        are_near(
+            &found,
+            &[-from, PI - from].map(|way| 0.5 + 0.5 * way / turn),
+        );
+    }
+
+    /// δ is 0.5 until it jumps below zero for two thousandths of the way, and 0.02 afterwards.
+    #[test]
+    fn passages_are_found_that_are_two_thousandths_apart() {
+        let roots = [0.3095, 0.3115];
+        let delta = |t: f64| {
+            let steep = |from: f64| (8000.0 * (t - from)).tanh();
+            steep(roots[0]) * steep(roots[1]) * (0.26 - 0.24 * steep(0.3105))
+        };
+        are_near(&passed(delta, &SAMPLES), &roots);
+    }
+
+    /// All samples are nearly singular and equally so, and serve.
+    #[test]
+    fn a_motion_near_a_singular_pose_has_regular_samples() {
+        let found = passed(|t| 2e-4 * (1.0 - 2.0 * second_half(t)), &SAMPLES);
+        are_near(&found, &[0.75]);
     }
 }

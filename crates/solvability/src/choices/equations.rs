@@ -15,7 +15,6 @@ use rank::RankStatus;
 use super::{ChoiceError, ChosenValues};
 use crate::existence::may_miss;
 use crate::groups::{RequestError, check};
-use crate::parts::Extent;
 use crate::sparse::{blocks, rows_of};
 
 /// `M·a + Cᵀ·λ = Q`, `C·a = Γ` at one instant.
@@ -142,45 +141,6 @@ impl Equations {
         }
     }
 
-    /// The equations of a part of a mechanism, given a solution of the whole; the forces of other
-    /// parts on its bodies become loads. The accelerations are the same, and the multipliers of the
-    /// whole are one of the solutions of the part.
-    ///
-    /// # Errors
-    /// As [`Equations::of`].
-    pub(crate) fn of_part(
-        part: &Mechanism,
-        extent: &Extent,
-        (t, q, v): (f64, &[f64], &[f64]),
-        solution: &Solution,
-    ) -> Result<Self, RequestError> {
-        let [q, v, a] = [
-            extent.coordinates(q),
-            extent.velocities(v),
-            extent.velocities(&solution.acceleration),
-        ];
-        let of_part = Self::of(part, t, &q, &v)?;
-        let lambda = extent.of_rows(solution.multipliers.as_chosen());
-        // The accelerations are known, so any positive masses serve; only zeros are replaced.
-        let largest = of_part.mass.iter().fold(0.0_f64, |a, m| a.max(*m));
-        let some = |m: &f64| match (*m > 0.0, largest > 0.0) {
-            (true, _) => *m,
-            (false, true) => largest,
-            (false, false) => 1.0,
-        };
-        let mass: Vec<f64> = of_part.mass.iter().map(some).collect();
-        let mut force = of_part.c.transpose_times(&lambda);
-        for ((f, m), a) in force.iter_mut().zip(&mass).zip(a.iter()) {
-            *f += m * a;
-        }
-        Ok(Self {
-            mass,
-            force,
-            gamma: of_part.c.times(&a),
-            ..of_part
-        })
-    }
-
     /// Solves for one λ, with zeros on the dropped rows. All other solutions are `λ + Z·y`.
     ///
     /// # Errors
@@ -202,11 +162,6 @@ impl Equations {
     /// As [`Equations::multipliers`].
     pub fn solution(&self, rows: impl Into<RowDecision>) -> Result<Solution, ChoiceError> {
         self.solution_within(&rows.into(), |_, _| 0.0)
-    }
-
-    /// One solution, without asking whether the dropped rows agree with it.
-    pub(crate) fn solution_of_kept(&self, rows: &RowDecision) -> Result<Solution, ChoiceError> {
-        self.solved(rows).map(|(solution, _)| solution)
     }
 
     fn solved(&self, rows: &RowDecision) -> Result<(Solution, KeptRowSaddle), ChoiceError> {

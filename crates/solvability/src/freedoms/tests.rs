@@ -5,7 +5,7 @@ use crate::limits::MOTIONS_REPORTED;
 mod space;
 
 use joints::{
-    Direction, Gear, KnifeEdge, Revolute, RevoluteAngleDrive, Translational,
+    Direction, Fixed, Gear, KnifeEdge, Revolute, RevoluteAngleDrive, Translational,
     TranslationalDisplacementDrive,
 };
 use model::start::assemble;
@@ -59,6 +59,48 @@ fn pusher(d: &mut Description, name: &str, bodies: [BodyRef; 2], place: [f64; 2]
         drive,
         Function::constant_rate(1.0).expect("finite"),
     );
+}
+
+/// Thirty four-bars on a tower of two parts on a carriage. From their joints the rail is the
+/// farthest, but it moves alone.
+#[test]
+fn the_motion_of_fewest_joints_comes_first() {
+    let mut d = Description::new("carriage");
+    let tower = [
+        ("carriage", [0.0, -2.0]),
+        ("middle", [0.0, -1.0]),
+        ("top", [0.0, 0.0]),
+    ];
+    let [carriage, middle, top] = tower.map(|(name, place)| d.body(at(name, place)));
+    for k in 0..30 {
+        let along = |[x, y]: [f64; 2]| [x + 4.0 * f64::from(k), y];
+        let mut link = |name: &str, place| d.body(at(&format!("{name} {k}"), along(place)));
+        let crank = link("crank", [0.0, 0.5]);
+        let coupler = link("coupler", [1.0, 1.5]);
+        let rocker = link("rocker", [2.5, 1.0]);
+        for (name, bodies, place) in [
+            ("A", [top, crank], [0.0, 0.0]),
+            ("B", [crank, coupler], [0.0, 1.0]),
+            ("C", [coupler, rocker], [2.0, 2.0]),
+            ("D", [top, rocker], [3.0, 0.0]),
+        ] {
+            pin(&mut d, &format!("{name} {k}"), bodies, along(place));
+        }
+        if k == 0 {
+            let axis = Direction::new([1.0, 0.0]).expect("a direction");
+            rail(&mut d, "rail", [GROUND, carriage], [0.0, -2.0], axis);
+        }
+    }
+    let welds = [
+        ("lower", [carriage, middle], [0.0, -1.5]),
+        ("upper", [middle, top], [0.0, -0.5]),
+    ];
+    for (name, bodies, place) in welds {
+        let [s_i, s_j] = bodies.map(|b| d.local(b, place));
+        d.joint(name, &bodies, Fixed::new(s_i, s_j));
+    }
+    let slides: Vec<_> = (0..93).map(|body| (body, [1.0, 0.0, 0.0])).collect();
+    moves(&freedoms(&d).motions, 0, &slides);
 }
 
 fn freedoms(d: &Description) -> Freedoms {

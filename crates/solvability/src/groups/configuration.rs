@@ -4,7 +4,6 @@
 use crate::pose::{dimensionless, evaluated, uncertainty};
 use std::borrow::Cow;
 
-use linalg::Matrix;
 use model::start::scene_size;
 use model::{Layout, Mechanism, Scratch, System};
 use rank::RankDecision;
@@ -19,8 +18,6 @@ use crate::verdict::Judgement;
 /// A mechanism at time t and coordinates q, with the rank of C there.
 pub struct Configuration<'a> {
     pub(crate) reactions: ReactionForms<'a>,
-    /// Accuracy of the entries of the dimensionless C.
-    pub(crate) uncertainty: Matrix,
     pub(crate) solvability: Solvability,
 }
 
@@ -46,14 +43,10 @@ impl<'a> Configuration<'a> {
     pub fn decided(mechanism: &'a Mechanism, t: f64, q: &[f64]) -> Result<Self, AnalysisError> {
         let s = evaluated(mechanism, t, q);
         let size = scene_size(mechanism, q);
-        let (c, uncertainty) = (
-            dimensionless(mechanism, &s, size),
-            uncertainty(mechanism, &s, size),
-        );
-        let decision = rank::decide(&c, &uncertainty);
+        let c = dimensionless(mechanism, &s, size);
+        let decision = rank::decide(&c, &uncertainty(mechanism, &s, size));
         let decision = decision.map_err(|source| AnalysisError::Rank { time: t, source })?;
         Ok(Self {
-            uncertainty,
             reactions: ReactionForms {
                 mechanism: Cow::Borrowed(mechanism),
                 s: Cow::Owned(s),
@@ -99,7 +92,6 @@ impl<'a> Configuration<'a> {
         let size = scene_size(&mechanism, q);
         let c = dimensionless(&mechanism, &s, size);
         Ok(Self {
-            uncertainty: uncertainty(&mechanism, &s, size),
             reactions: ReactionForms {
                 mechanism,
                 s: Cow::Owned(s),

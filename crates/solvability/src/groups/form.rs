@@ -176,13 +176,4 @@ impl LinearForm {
         let image = free.z.transpose_times(&scaled(&self.coefficients));
         (image.iter().map(|x| x / size).collect(), size)
     }
-
-    /// The form with the coefficients of each row multiplied by a positive factor.
-    pub(crate) fn times(&self, factors: &[f64]) -> Self {
-        let times = |x: &[f64]| x.iter().zip(factors).map(|(x, f)| x * f).collect();
-        Self {
-            coefficients: times(&self.coefficients),
-            sizes: times(&self.sizes),
-        }
-    }
 }

@@ -196,3 +196,19 @@ fn directions_without_a_reaction_are_left_out() {
         assert_eq!([0, 1, 2, 3].map(zero), [false, false, false, true]);
     }
 }
+
+/// Rows 0 and 1 are the same, and of row 2 a force has the direction (1, ε). The data are known so
+/// badly that coefficients of 1e-3 may be rounding, but not the part ε of a direction.
+#[test]
+fn a_part_of_a_direction_is_told_however_uncertain_coefficients_are() {
+    let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    let s = Solvability::of(&c, rank::Accuracy::Absolute(1e-5)).unwrap();
+    assert!(s.decision().coefficient_tolerance() > 1e-4);
+    for epsilon in [5e-5, -3e-4] {
+        let map = Matrix::from_rows(&[[0.0, 1.0], [0.0, epsilon], [1.0, 0.0]]);
+        let mapped = s.basis().mapped(&map, [0, 2]).unwrap();
+        let found = mapped.live_directions(&[vec![1.0, 0.0, 0.0], vec![0.0, 1.0, 0.0]]);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!((found[0][1] / epsilon - 1.0).abs() < 1e-6, "{found:?}");
+    }
+}

@@ -150,6 +150,16 @@ mod tests {
         );
     }
 
+    /// As before, beside two hundred numbers that need no change: they do not lower the bounds.
+    #[test]
+    fn numbers_that_need_no_change_stay_out_of_the_bounds() {
+        let mut parts = vec![[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
+        parts.resize(203, [0.0; 3]);
+        let found = least_change(&[equation(6.0, &parts)]);
+        is_near(found, 1.0);
+        assert!(found.low > 1.0 - 1e-4, "{found:?}");
+    }
+
     #[test]
     fn a_point_has_one_change_in_both_directions() {
         // x = 3, y = 4 of one point: 5, of two numbers: 4.

@@ -2,7 +2,7 @@
 //! the same cone program solved by another method (linear programming over coordinates, poses by
 //! finite differences), or by hand if a test says so.
 
-use joints::{Distance, Revolute};
+use joints::{Distance, Line, PointOnLine, Revolute};
 use model::{Body, BodyRef, Description, Function, Mechanism};
 
 use rank::RankStatus;
@@ -114,6 +114,44 @@ fn a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on() {
             "{off}: {at_this_pose}"
         );
         assert!((from / everywhere - 1.0).abs() < 0.06, "{off}: {from}");
+    }
+}
+
+/// A pin that is off by a nanometre: the change of data is that of the misfit still, and not of the
+/// rounding of the entries.
+#[test]
+fn a_misfit_above_the_rounding_of_entries_is_one_of_data() {
+    let [Some(here), _] = lower_rank(&analysed(&three_cranks(1e-9))) else {
+        panic!("no lower rank is near");
+    };
+    assert!((here / 7.92e-11 - 1.0).abs() < 0.06, "{here}");
+}
+
+/// A beam on rollers at 0, 1 and ε: `row 2 = (1 − ε)·row 0 + ε·row 1`. What the rounding of the
+/// data makes of a row is asked where its coefficient is neither noise nor beyond doubt.
+#[test]
+fn data_are_asked_about_small_coefficients_that_are_no_noise() {
+    let beam = |epsilon: f64| {
+        let mut d = Description::new("beam");
+        let beam = d.body(bar("beam", [0.0; 2], 0.0));
+        let line = Line::new([0.0; 2], [1.0, 0.0]).expect("a line");
+        for (name, x) in [("left", 0.0), ("right", 1.0), ("middle", epsilon)] {
+            d.joint(name, &[beam], PointOnLine { s: [x, 0.0], line });
+        }
+        analysed(&d)
+    };
+    let noise = beam(0.0).whole().expect("one part").row_noise(1);
+    assert!(noise < 1e-12, "{noise}");
+    for (epsilon, is_asked) in [
+        (0.0, false),
+        (0.03 * noise, false),
+        (0.3 * noise, true),
+        (1e-4, true),
+        (1e-2, false),
+    ] {
+        let certificate = beam(epsilon).evidence().certificate.clone();
+        let asked = certificate.expect("certified").row_data;
+        assert_eq!(asked.is_some(), is_asked, "{epsilon}");
     }
 }
 

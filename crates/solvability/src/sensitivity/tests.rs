@@ -69,6 +69,29 @@ fn a_beam_by_hand() {
     }
 }
 
+/// The beam on two rollers, which rolls along them with 1 m/s: what carries a weight of a
+/// ten-millionth of what would stop the beam depends on the data as what carries any weight.
+#[test]
+fn a_small_load_beside_a_fast_motion_is_a_load() {
+    for gravity in [10.0, 1e-7] {
+        let mut d = Description::new("beam");
+        d.gravity = [0.0, -gravity];
+        let beam = d.body(Body {
+            position: [0.5, 0.0],
+            ..Body::new("beam", 1.0, 1.0)
+        });
+        let line = Line::new([0.0, 0.0], [2.0, 0.0]).expect("a line");
+        for (name, x) in [("left", -0.5), ("right", 1.5)] {
+            d.joint(name, &[beam], PointOnLine { s: [x, 0.0], line });
+        }
+        let mechanism = Mechanism::build(&d).expect("it builds");
+        let found = known(&mechanism, 0.0, &[0.5, 0.0, 0.0], &[1.0, 0.0, 0.0]);
+        for of in found {
+            assert!((of.change / 7.5e-5 - 1.0).abs() < 1e-6, "{gravity}: {of:?}");
+        }
+    }
+}
+
 /// Numbers of a crank of 0.3 m with a rod of 0.8 m whose end moves on an oblique line; each pair is
 /// a point or a direction.
 const POINTS: [[f64; 2]; 6] = [

@@ -58,7 +58,7 @@ fn document(configuration: Result<ConfigurationAnalysis<'_>, StudyError>) -> Res
     if configuration.analysis.decision.is_decided() {
         let choice = Choice::MinimumNorm(NormWeights::NEWTON_METRE);
         let chosen = configuration.distribution(&choice);
-        let chosen = chosen.iter().map(|d| DistributionDocument::new(d, &[]));
+        let chosen = chosen.iter().map(DistributionDocument::new);
         document.answers.choices = chosen.collect();
     }
     serde_json::to_value(document).map_err(|e| e.to_string())

@@ -7,7 +7,7 @@ use report::documents::{
     DistributionDocument, EliminationsDocument, MakeUniqueDocument, ValuesDocument,
 };
 use scene::in_si;
-use solvability::{DeletableRows, EliminationError, UnitError, Verdict};
+use solvability::{DeletableRows, EliminationError, Verdict};
 
 use super::Analyze;
 use super::deletions::HINTS;
@@ -61,31 +61,16 @@ pub(super) fn of(
         let added = configuration.add_moments(&mut document, layout.constraint_ids(), about);
         added.map_err(failure)?;
     }
-    if !choices.is_empty() {
-        let facts = match configuration.facts() {
-            Ok(facts) => facts,
-            // The comparison of units uses double precision, the choices use the proved rank.
-            Err(StudyError::Units(
-                e @ (UnitError::RankChanges { .. } | UnitError::WithinTolerance),
-            )) => {
-                document.warnings.push(format!(
-                    "a change of units does not distinguish facts from choices: {e}"
-                ));
-                Vec::new()
-            }
-            Err(e) => return Err(failure(e)),
-        };
-        for choice in &choices {
-            let distribution = configuration.distribution(choice).map_err(failure)?;
-            let mut made = DistributionDocument::new(&distribution, &facts);
-            let sums = configuration.chosen(&asked.combine, &distribution);
-            let sums = document.groups.iter().zip(sums.map_err(failure)?);
-            made.groups = sums
-                .filter(|(_, values)| !values.is_empty())
-                .map(|(group, values)| ValuesDocument::of_group(&group.name, &values))
-                .collect();
-            document.answers.choices.push(made);
-        }
+    for choice in &choices {
+        let distribution = configuration.distribution(choice).map_err(failure)?;
+        let mut made = DistributionDocument::new(&distribution);
+        let sums = configuration.chosen(&asked.combine, &distribution);
+        let sums = document.groups.iter().zip(sums.map_err(failure)?);
+        made.groups = sums
+            .filter(|(_, values)| !values.is_empty())
+            .map(|(group, values)| ValuesDocument::of_group(&group.name, &values))
+            .collect();
+        document.answers.choices.push(made);
     }
     Ok(document)
 }

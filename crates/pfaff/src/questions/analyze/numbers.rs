@@ -7,15 +7,14 @@ use crate::words::Block;
 /// Components that do not depend on a choice are listed once; those that do have one column for
 /// each choice.
 pub(super) fn of(choices: &[DistributionDocument]) -> Vec<Block> {
-    let Some(first) = choices.first() else {
+    if choices.is_empty() {
         return Vec::new();
-    };
+    }
     let mut header = ["reaction", "component", "determined"]
         .map(str::to_owned)
         .to_vec();
     header.extend((1..=choices.len()).map(|k| format!("choice {k}")));
     let mut table = vec![header];
-    let mut suspicious = Vec::new();
     let all_of = |d: &'_ DistributionDocument| -> Vec<ValuesDocument> {
         d.reactions.iter().chain(&d.groups).cloned().collect()
     };
@@ -33,11 +32,6 @@ pub(super) fn of(choices: &[DistributionDocument]) -> Vec<Block> {
                 let all = columns_of.iter();
                 cells.extend(all.map(|column| number(&column[i].components[j])));
             }
-            if component.value.in_solution().is_some()
-                && component.nature == Some(if is_fact { "choice" } else { "fact" })
-            {
-                suspicious.push(format!("{name} of {}", reaction.name));
-            }
             table.push(cells);
         }
     }
@@ -47,16 +41,6 @@ pub(super) fn of(choices: &[DistributionDocument]) -> Vec<Block> {
         Block::Legend(format!("choice {}", k + 1), choice.label.clone())
     };
     out.extend(choices.iter().enumerate().map(label));
-    let mut components = first.reactions.iter().flat_map(|r| &r.components);
-    if components.any(|component| component.nature.is_none()) {
-        // A warning states why the numbers are missing.
-        return out;
-    }
-    let sentence = match suspicious.as_slice() {
-        [] => "A change of units leaves what is determined as it is, and changes the rest, as it must.".to_owned(),
-        names => format!("warning: under a change of units {} behave otherwise than their verdicts say: do not trust them", names.join(", ")),
-    };
-    out.push(Block::sentence(sentence));
     out
 }
 

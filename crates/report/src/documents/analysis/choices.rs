@@ -1,9 +1,8 @@
 //! Reactions for several choices: unique numbers, and other numbers with the choice on which they
 //! depend.
 
-use model::{ConstraintId, Frame};
 use serde::Serialize;
-use solvability::{Distribution, Nature, UnitCheck, Value};
+use solvability::{Distribution, Value};
 
 /// The reactions for one choice.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -43,20 +42,23 @@ pub struct ValueDocument {
     /// The number and its verdict.
     #[serde(flatten)]
     pub value: Value,
-    /// Result of a change of units, independent of the verdicts: `fact` or `choice`; absent if not
-    /// requested.
+    /// For a component of a reaction: `fact` if it is unique, else `choice`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nature: Option<&'static str>,
 }
 
 impl DistributionDocument {
-    /// The reactions for a choice, with the result of a change of units.
+    /// The reactions for a choice.
     #[must_use]
-    pub fn new(distribution: &Distribution, checks: &[UnitCheck]) -> Self {
+    pub fn new(distribution: &Distribution) -> Self {
         let reaction = |r: &solvability::ReactionValues| {
             let component = |(name, value): &(&'static str, Value)| {
-                let nature = nature(checks, r.id, name);
-                ValueDocument::new(Some(name), value, nature)
+                let nature = if value.verdict().is_unique() {
+                    "fact"
+                } else {
+                    "choice"
+                };
+                ValueDocument::new(Some(name), value, Some(nature))
             };
             ValuesDocument {
                 name: r.name.clone(),
@@ -84,17 +86,6 @@ impl ValuesDocument {
             components: ValueDocument::named(values),
         }
     }
-}
-
-/// Finds a component in `checks`, which are in the order of joints.
-fn nature(checks: &[UnitCheck], id: ConstraintId, name: &str) -> Option<&'static str> {
-    let from = checks.partition_point(|c| c.id < id);
-    let mut own = checks[from..].iter().take_while(|c| c.id == id);
-    let found = own.find(|c| c.frame == Frame::Global && c.name == name)?;
-    Some(match found.nature {
-        Nature::Fact => "fact",
-        Nature::Choice => "choice",
-    })
 }
 
 impl ValueDocument {
