@@ -75,7 +75,8 @@ pub(crate) fn exception(py: Python<'_>, refusal: &Refusal) -> PyErr {
     made(py, class, &words, &with_keywords(&document))
 }
 
-/// A text in which options of the command, as `--at-time 2`, are keywords of Python, as `at_time=2`.
+/// A text in which options of the command, as `--at-time 2`, are keywords of Python, as
+/// `at_time=2`.
 fn with_keywords(text: &str) -> String {
     let mut words = text.split("--");
     let mut told = words.next().unwrap_or_default().to_owned();

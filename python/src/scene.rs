@@ -445,8 +445,8 @@ impl Scene {
         })
     }
 
-    /// The assembled start as a page or a picture, by the end of a name; with the characters that no
-    /// font of a PNG has.
+    /// The assembled start as a page or a picture, by the end of a name; with the characters that
+    /// no font of a PNG has.
     fn view(
         &self,
         py: Python<'_>,

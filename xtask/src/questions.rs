@@ -1,5 +1,5 @@
-//! What follows from the list of questions. It is written by a program of its own, which contains the
-//! product: xtask itself compiles without it.
+//! What follows from the list of questions. It is written by a program of its own, which contains
+//! the product: xtask itself compiles without it.
 
 use std::env;
 use std::process::Command;

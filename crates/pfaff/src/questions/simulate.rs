@@ -86,7 +86,8 @@ impl Question for Simulate {
     }
 }
 
-/// Puts the whole rows of the tables at their place, with a summary that says that they are partial.
+/// Puts the whole rows of the tables at their place, with a summary that says that they are
+/// partial.
 fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
     let Some(scene) = begun else {
         return NOTHING_WRITTEN.to_owned();
