@@ -8,7 +8,7 @@ from _typeshed import Incomplete, SupportsGetItem
 from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-__all__ = ["__version__", "Run", "Scene", "Sweep", "_panics", "forget_crashed", "input_code", "merge", "nearest", "sweep_columns"]
+__all__ = ["__version__", "Run", "Scene", "Sweep", "_panics", "explain", "forget_crashed", "input_code", "merge", "nearest", "sweep_columns", "templates"]
 
 __version__: Final[str]
 """
@@ -81,6 +81,11 @@ class Scene:
         The name that the scene gives itself, the names of its bodies, and of its joints and drives
         in the order of the rows.
         """
+    @staticmethod
+    def of_template(name: str) -> Scene:
+        """
+        The scene of a template.
+        """
     def simulate(self, /, options: Incomplete, numbers_of_choice: bool, choices: SupportsGetItem[int, str], on_event: Any | None, on_row: Any | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> Run:
         """
         Runs the scene. With `numbers_of_choice` numbers that are not determined on their stretch of
@@ -100,6 +105,11 @@ class Scene:
         """
     @property
     def text(self, /) -> str: ...
+    def view(self, /, path: str | PathLike[str], scale: SupportsFloat | SupportsIndex | None, common: Incomplete) -> tuple[bytes, str]:
+        """
+        The assembled start as a page or a picture, by the end of a name; with the characters that
+        no font of a PNG has.
+        """
     def with_settings(self, /, keys: SupportsGetItem[int, str], expressions: SupportsGetItem[int, str]) -> Scene:
         """
         The same scene with other numbers or expressions.
@@ -142,6 +152,11 @@ def _panics() -> None:
     Panics, for the test that no panic leaves this module.
     """
 
+def explain(code: str) -> str:
+    """
+    What the code of an error means, and what to do.
+    """
+
 def forget_crashed(directory: str | PathLike[str]) -> int:
     """
     Forgets the rows of runs that have ended their process, so that they are made again. Returns
@@ -167,4 +182,9 @@ def sweep_columns(directory: str | PathLike[str]) -> tuple[str, list[tuple[str, 
     """
     The summary of what is in a directory, and its columns: counts as whole numbers, or with NaN if
     some are unknown, numbers, and lists of texts.
+    """
+
+def templates() -> list[tuple[str, str]]:
+    """
+    Names of the templates, each with what it is.
     """
