@@ -6,17 +6,18 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pfaff::choice::choices;
+use pfaff::documents::EventDocument;
 use pfaff::import::{Axes, Base, FixedLinks, Folder, Options};
 use pfaff::memory::Budget;
 use pfaff::model::codes::Code;
 use pfaff::model::{Registry, System, Tolerance};
+use pfaff::page::Origin;
 use pfaff::question::{Control, Output, Place};
 use pfaff::questions::Questions;
 use pfaff::refusal::{Refusal, json};
-use pfaff::report::documents::{EventDocument, part_as_json};
+use pfaff::report::part_as_json;
 use pfaff::report::{
-    Column as ReportColumn, FileError, Origin, OutputDirectory, Provenance, ReactionColumn,
-    Trajectory,
+    Column as ReportColumn, FileError, OutputDirectory, Provenance, ReactionColumn, Trajectory,
 };
 use pfaff::scene::{KeyError, Template as Keys};
 use pfaff::solvability::Choice;

@@ -1,8 +1,8 @@
 //! Frames whose origin is not the centre of mass, markers and measures: a scene says the same
 //! motion whichever frames it is written in, and its columns are those of the frames.
 
+use pfaff::documents::MotionDocument;
 use pfaff::model::Registry;
-use pfaff::report::documents::MotionDocument;
 use pfaff::{RunOptions, Study};
 
 /// The centre of mass of each body in its frame: cranks, coupler, pendulum.

@@ -1,11 +1,11 @@
 //! The same mechanism as a scene and as a program: all results are bitwise equal.
 
+use pfaff::documents::MotionDocument;
 use pfaff::dynamics::MotionError;
 use pfaff::joints::{SpringDamper, Torque, Velocity};
 use pfaff::model::{Force, Joint};
 use pfaff::prelude::*;
 use pfaff::report::OutputDirectory;
-use pfaff::report::documents::MotionDocument;
 use serde_json::Value;
 
 /// A coupler on three parallel cranks, one of them redundant, with a spring and a varying torque.

@@ -3,8 +3,8 @@
 
 use dynamics::{MotionError, MotionFault};
 use model::Registry;
-use pfaff::report::RunDocument;
-use pfaff::report::documents::MisfitDocument;
+use pfaff::documents::MisfitDocument;
+use pfaff::documents::RunDocument;
 use pfaff::{RunOptions, Study, StudyError};
 
 /// Length of the cranks, and by how much the third pin of the coupler is off (m).

@@ -1,8 +1,8 @@
 //! `pfaff explain`: what the code of an error means, and what to do.
 
+use pfaff::documents::CodesDocument;
 use pfaff::explain;
 use pfaff::model::codes::{Entry, PAGE, entries};
-use pfaff::report::documents::CodesDocument;
 
 use crate::args::Explain;
 use crate::console::Console;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use pfaff::documents::{ImportDocument, OmissionDocument};
 use pfaff::import::{Axes, FixedLinks, Folder, ImportedScene, Omission, Options, Refusal};
 use pfaff::memory::of_import;
 use pfaff::question::Ending;
-use pfaff::report::documents::{ImportDocument, OmissionDocument};
 
 use crate::args::Import;
 use crate::console::Console;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use pfaff::report::documents::{NewDocument, TemplateDocument, TemplatesDocument};
+use pfaff::documents::{NewDocument, TemplateDocument, TemplatesDocument};
 use pfaff::template::Template;
 
 use crate::args::New;

@@ -3,10 +3,10 @@
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
 
+use pfaff::documents::RefusalDocument;
 use pfaff::model::codes::Code;
 use pfaff::question::{INTERRUPTED, NOTHING_WRITTEN};
 use pfaff::refusal;
-use pfaff::report::documents::RefusalDocument;
 use pfaff::report::{Family, FileError, OutputDirectory, OutputFile, PngError, Replaces};
 use serde::Serialize;
 

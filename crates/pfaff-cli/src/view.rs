@@ -5,8 +5,8 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use pfaff::documents::ViewDocument;
 use pfaff::question::Control;
-use pfaff::report::documents::ViewDocument;
 use pfaff::report::figures::check_png;
 use pfaff::report::{OutputDirectory, Replaces};
 use pfaff::view::{Drawing, Form};

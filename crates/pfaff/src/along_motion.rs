@@ -5,12 +5,12 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::documents::AlongDocument;
+use crate::documents::AnalysisDocument;
 use dynamics::plan::{Reactions, Rows};
 use dynamics::{MotionError, MotionOptions, OutputRequest, Plan, Stop};
 use model::start::scene_size;
 use model::{ColumnKind, Layout, Mechanism, System};
-use report::AnalysisDocument;
-use report::documents::AlongDocument;
 use solvability::{
     AlongError, Extent, MotionAnalysis, PassageKind, State, Stretches, along_motion_of_parts,
 };

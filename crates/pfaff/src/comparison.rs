@@ -12,10 +12,11 @@ mod tests;
 
 use std::ops::Range;
 
+use crate::page::{ComparedChoice, Comparison, Freedom};
 use linalg::{Matrix, PivotedQr};
 use model::{Mechanism, Part, RowRanges, Scratch, SpaceKind, System};
 use rank::{RankDecision, deletions, dependencies};
-use report::{ComparedChoice, Comparison, Frame, Freedom, Recording};
+use report::{Frame, Recording};
 use solvability::parts::parts;
 use solvability::{Configuration, NormWeights};
 
@@ -256,8 +257,7 @@ impl<'a> Set<'a> {
         let least = least.ok();
         let without = self.eliminations.iter().map(|rows| {
             let is_firm = rows.len() == z.ncols() && firmness(&z, rows) >= FIRM;
-            let found = is_firm.then(|| configuration.eliminated(&lambda, rows));
-            found.and_then(Result::ok)
+            is_firm.then(|| configuration.eliminated_unchecked(&lambda, rows))
         });
         let others = std::iter::once(least).chain(without);
         let others = others.map(|lambda| lambda.map(|lambda| self.wrenches(&maps, &lambda)));

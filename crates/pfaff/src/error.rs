@@ -1,12 +1,13 @@
 //! Reasons why there are no results, or only a part of them.
 
+use crate::documents::RunDocument;
 use dynamics::equilibrium::EquilibriumError;
 use dynamics::linearise::LineariseError;
 use dynamics::{MotionError, MotionFault};
 use model::BuildError;
 use model::codes::Code;
 use rank::DeletionError;
-use report::{FileError, RunDocument, TableError};
+use report::{FileError, TableError};
 use scene::{CombinationError, Diagnostic};
 use solvability::{
     AlongError, AnalysisError, ChoiceError, Contradiction, EliminationError, ExplanationError,

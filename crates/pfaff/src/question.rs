@@ -5,8 +5,9 @@
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;
 
+use crate::page::Origin;
 use model::codes::Code;
-use report::{Family, FileError, Origin, OutputDirectory, Provenance};
+use report::{Family, FileError, OutputDirectory, Provenance};
 use serde::{Deserialize, Serialize};
 
 use crate::refusal::{Refusal, json};

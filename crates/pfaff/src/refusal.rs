@@ -6,8 +6,8 @@ mod render;
 
 use std::borrow::Cow;
 
+use crate::documents::RefusalDocument;
 use model::codes::Code;
-use report::documents::RefusalDocument;
 use report::{FileError, PngError, TableError, write_json};
 use scene::Diagnostic;
 use serde::Serialize;

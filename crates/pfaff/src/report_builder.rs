@@ -4,15 +4,14 @@
 
 use std::ops::ControlFlow;
 
+use crate::documents::MakeUniqueDocument;
+use crate::documents::{AnalysisDocument, RunDocument};
+use crate::page::{DriveCurve, Origin, RunPage, Shows, WrittenScene, numbers_per_row, run_page};
 use dynamics::plan::Rows;
 use dynamics::{MotionOptions, Plan, PreparedMechanism, Sample};
 use model::{Mechanism, System};
 use rank::Limits;
-use report::documents::MakeUniqueDocument;
-use report::{
-    AnalysisDocument, DriveCurve, Frame, Origin, Recording, RunDocument, RunPage, Shows,
-    WrittenScene, numbers_per_row, run_page,
-};
+use report::{Frame, Recording};
 use scene::{Scene, Units, WithUnit};
 use solvability::{DeletableRows, Sensitivities, Stretches, Verdict};
 

@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::documents::Ending;
 use dynamics::{Failure, MotionError, MotionFault, Plan, Sample, Stop, Summary};
-use report::{Ending, TableError};
+use report::TableError;
 use solvability::Stretches;
 
 use crate::error::StudyError;

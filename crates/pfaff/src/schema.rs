@@ -1,6 +1,6 @@
 //! Questions and answers as JSON schemas, for programs that write interfaces of them.
 
-use report::documents::FORMAT;
+use report::json::FORMAT;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema, json_schema};

@@ -3,10 +3,10 @@
 
 use std::ops::ControlFlow;
 
+use crate::documents::Ending;
+use crate::documents::SpreadDocument;
 use dynamics::plan::Reactions;
 use dynamics::{MotionError, OutputRequest, Plan, PreparedMechanism, Sample, Stop, Summary};
-use report::Ending;
-use report::documents::SpreadDocument;
 
 use crate::rows::{RowFault, RowSink, RunEnd};
 

@@ -3,8 +3,8 @@
 
 use std::sync::{Arc, OnceLock};
 
+use crate::documents::AnalysisDocument;
 use model::{Mechanism, Registry, System, Tolerance};
-use report::AnalysisDocument;
 use scene::Scene;
 
 use crate::assembled::AssembledScene;

@@ -4,6 +4,11 @@
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
+use crate::documents::{AnalysisDocument, Run, RunDocument};
+use crate::documents::{
+    DataDocument, Gap, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument,
+};
+use crate::page::Origin;
 use dynamics::equilibrium::{Equilibrium, EquilibriumError, EquilibriumOptions, equilibrium};
 use dynamics::linearise::{Linearisation, LineariseOptions, linearise};
 use dynamics::plan::{Reactions, Rows, Verdicts};
@@ -16,13 +21,9 @@ use model::{
     AnyDescription, ConfigurationAccuracy, ConstraintId, FramePose, Reaction, Registry, StartError,
     StartPose, System,
 };
-use report::documents::{
-    DataDocument, Gap, MomentDocument, MotionDocument, RunVerdicts, SpreadDocument,
-};
 use report::{
-    AnalysisDocument, Family, Origin, OutputDirectory, Peak, PeakRecorder, Quantity,
-    ReactionColumn, Run, RunDocument, Selection, TableError, TrajectoryTable, columns_of_reactions,
-    write_json,
+    Family, OutputDirectory, Peak, PeakRecorder, Quantity, ReactionColumn, Selection, TableError,
+    TrajectoryTable, columns_of_reactions, write_json,
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{

@@ -5,12 +5,13 @@ use std::io::BufReader;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use crate::documents::Ending;
+use crate::documents::{Gap, choice_file};
 use dynamics::{Plan, Sample};
 use model::{Mechanism, System};
-use report::documents::{Gap, choice_file};
 use report::{
-    Ending, FileError, OutputDirectory, OutputFile, Peak, PeakRecorder, ReactionColumn,
-    ReactionTable, TableError, TrajectoryTable, write_chosen, write_determined,
+    FileError, OutputDirectory, OutputFile, Peak, PeakRecorder, ReactionColumn, ReactionTable,
+    TableError, TrajectoryTable, write_chosen, write_determined,
 };
 use solvability::{ChoiceError, ChosenValues, GroupNumbers, Stretches};
 

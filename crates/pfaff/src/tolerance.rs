@@ -26,9 +26,9 @@ mod vary;
 
 use std::num::NonZeroUsize;
 
+use crate::documents::ToleranceDocument;
 use model::System;
 use rayon::prelude::*;
-use report::documents::ToleranceDocument;
 
 use crate::assembled::AssembledScene;
 use crate::workers::Workers;

@@ -2,9 +2,11 @@
 
 use std::path::Path;
 
+use crate::documents::AnalysisDocument;
+use crate::page::{Origin, RunPage, Shows, run_page};
 use model::System;
 use report::figures::{Labels, Marking, labelled_mechanism, png};
-use report::{AnalysisDocument, Frame, Origin, Recording, RunPage, Shows, run_page};
+use report::{Frame, Recording};
 
 use crate::configuration::ConfigurationAnalysis;
 use crate::question::Control;

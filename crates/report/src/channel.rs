@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde::ser::{SerializeSeq, Serializer};
 
 /// Number of levels in the range of a curve; rounding is half a level.
-pub(crate) const LEVELS: f64 = 100_000.0;
+pub const LEVELS: f64 = 100_000.0;
 
 /// Number of digits of a single number.
 const DIGITS: usize = 6;
@@ -13,7 +13,7 @@ const DIGITS: usize = 6;
 /// A curve over the frames.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
-pub(crate) enum Channel {
+pub enum Channel {
     /// The same value at all frames.
     Constant(FewDigits),
     /// The value at level 0, the height of a level, and the differences between levels; `null` is a
@@ -30,19 +30,21 @@ pub(crate) enum Channel {
 
 /// A number with few digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct FewDigits(pub(crate) f64);
+pub struct FewDigits(pub f64);
 
 /// Differences of levels; `None` is a gap.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Steps(pub(crate) Vec<Option<i64>>);
+pub struct Steps(pub Vec<Option<i64>>);
 
 impl Channel {
-    pub(crate) fn new(values: impl Iterator<Item = f64> + Clone) -> Self {
+    /// The levels of these numbers.
+    #[must_use]
+    pub fn new(values: impl Iterator<Item = f64> + Clone) -> Self {
         Self::above(0.0, values)
     }
 
     /// Its value at the first frame.
-    pub(crate) fn first(&self) -> f64 {
+    pub fn first(&self) -> f64 {
         match self {
             Self::Constant(value) => value.0,
             Self::Varying { o, s, d } => match d.0.first() {
@@ -53,7 +55,7 @@ impl Channel {
     }
 
     /// Numbers of this size or smaller are rounding of zero.
-    pub(crate) fn above(noise: f64, values: impl Iterator<Item = f64> + Clone) -> Self {
+    pub fn above(noise: f64, values: impl Iterator<Item = f64> + Clone) -> Self {
         let values = values.map(|x| if x.abs() <= noise { 0.0 } else { x });
         let finite = values.clone().filter(|x| x.is_finite());
         let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
@@ -89,7 +91,7 @@ impl Channel {
 
 impl FewDigits {
     /// The number that is written.
-    pub(crate) fn value(self) -> f64 {
+    pub fn value(self) -> f64 {
         if self.0.is_finite() && self.0 != 0.0 {
             format!("{:.*e}", DIGITS, self.0).parse().unwrap_or(self.0)
         } else {

@@ -5,19 +5,17 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`tables`] | `trajectory.csv` and `reactions.csv`, row by row |
-//! | [`documents`] | `analyze --json`, `plan --json` and `summary.json` |
+//! | [`json`] | documents as JSON: their head, and objects whose keys are names |
 //! | [`figures`] | the mechanism with its verdicts, histories, paths in the plane: SVG, PNG |
 //! | [`mod@work_precision`] | error against run time: table, figure, page |
 //! | [`mod@sweep`] | many runs: shards and journals that survive interruptions, CSV and Parquet |
-//! | [`html`] | the page of a run, with its animation |
 //! | [`page`] | common parts of pages: head, end, style, format of numbers |
 //! | [`files`] | an output directory without incomplete files under final names |
 
-mod channel;
-pub mod documents;
+pub mod channel;
 pub mod figures;
 pub mod files;
-pub mod html;
+pub mod json;
 pub mod page;
 pub mod peaks;
 mod recording;
@@ -25,15 +23,9 @@ pub mod sweep;
 pub mod tables;
 pub mod work_precision;
 
-pub use documents::{
-    AnalysisDocument, Ending, Run, RunDocument, decision_key, read_json, write_json,
-};
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Png, PngError, Series, Style};
 pub use files::{Family, FileError, OutputDirectory, OutputFile, PROVENANCE, Replaces, is_ours};
-pub use html::{
-    ComparedChoice, Comparison, DriveCurve, Freedom, Origin, RunPage, Shows, WrittenScene,
-    numbers_per_row, run_page,
-};
+pub use json::{ByName, part_as_json, read_json, write_json};
 pub use peaks::{Peak, PeakRecorder};
 pub use recording::{Frame, Recording};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};

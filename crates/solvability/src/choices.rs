@@ -399,7 +399,14 @@ impl Configuration<'_> {
         );
         rank::with_dropped(self.solvability.decision(), &c, rows)
             .map_err(|source| self.refused(rows, source))?;
-        Ok(FreeMultipliers::of(&self.solvability).eliminated(lambda_0, rows))
+        Ok(self.eliminated_unchecked(lambda_0, rows))
+    }
+
+    /// The same for rows of which the caller knows that the others are independent and enough:
+    /// nothing is decided.
+    #[must_use]
+    pub fn eliminated_unchecked(&self, lambda_0: &[f64], rows: &[usize]) -> Vec<f64> {
+        FreeMultipliers::of(&self.solvability).eliminated(lambda_0, rows)
     }
 
     fn refused(&self, rows: &[usize], source: KeptRowsError) -> ChoiceError {

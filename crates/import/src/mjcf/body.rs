@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use super::geom::Geoms;
 use super::reader::Reader;
 use super::source::Item;
-use crate::findings::{Fault, NumberKind, unit};
+use crate::findings::{Fault, Findings, NumberKind, unit};
 use crate::limits::{DEEPEST, PERPENDICULAR};
 use crate::mass::Mass;
 use crate::mechanism::{Frame, Joint, JointKind, Link, Load};
@@ -286,7 +286,7 @@ impl<'a> Reader<'a, '_> {
     /// The coordinate in the axes of the file, and that at which the spring is without a load.
     fn coordinates_of(&mut self, given: &GivenJoint<'a>, kind: JointKind) -> [f64; 2] {
         let [zero, reference, _] = &given.coordinates;
-        let coordinates = [zero, reference].map(|value| self.numbers_of(value)[0]);
+        let coordinates = [zero, reference].map(|value| numbers_of(self.source.findings, value)[0]);
         let angle = self.source.compiler.angle;
         if kind != JointKind::Revolute || angle == 1.0 {
             return coordinates;
@@ -299,14 +299,6 @@ impl<'a> Reader<'a, '_> {
         coordinates.map(|x| x * angle)
     }
 
-    /// The numbers of a value, one zero without it.
-    fn numbers_of(&mut self, value: &Option<Value<'a>>) -> Vec<f64> {
-        let findings = &mut *self.source.findings;
-        let numbers = value.as_ref();
-        let numbers = numbers.and_then(|value| findings.numbers(value, [1, 16], NumberKind::Other));
-        numbers.unwrap_or_else(|| vec![0.0])
-    }
-
     /// The load on the coordinate; what else acts on it is left out.
     fn load_of(
         &mut self,
@@ -315,8 +307,10 @@ impl<'a> Reader<'a, '_> {
         reference: f64,
     ) -> Option<Load> {
         let element = given.element;
-        let [stiffness, damping, armature] =
-            given.loads.each_ref().map(|value| self.numbers_of(value));
+        let [stiffness, damping, armature] = given
+            .loads
+            .each_ref()
+            .map(|value| numbers_of(self.source.findings, value));
         let (line, auto_limits) = (element.line(), self.source.compiler.auto_limits);
         let findings = &mut *self.source.findings;
         let mut leave = |kind: &'static str| {
@@ -432,4 +426,11 @@ impl<'a> Reader<'a, '_> {
         }
         self.model.frames.push(Frame { name, link, pose });
     }
+}
+
+/// The numbers of a value, one zero without it.
+fn numbers_of(findings: &mut Findings, value: &Option<Value<'_>>) -> Vec<f64> {
+    let numbers = value.as_ref();
+    let numbers = numbers.and_then(|value| findings.numbers(value, [1, 16], NumberKind::Other));
+    numbers.unwrap_or_else(|| vec![0.0])
 }

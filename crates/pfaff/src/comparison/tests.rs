@@ -2,9 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use crate::page::Comparison;
 use dynamics::MotionOptions;
 use model::{Registry, System};
-use report::{Comparison, Frame, Recording};
+use report::{Frame, Recording};
 use solvability::{Verdict, analyse};
 
 use super::compare;

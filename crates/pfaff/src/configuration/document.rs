@@ -1,8 +1,8 @@
 //! All results for a configuration as one document, which `pfaff analyze --json` writes.
 
+use crate::documents::AnalysisDocument;
+use crate::documents::{EliminationsDocument, GroupDocument};
 use model::{SpaceKind, System};
-use report::AnalysisDocument;
-use report::documents::{EliminationsDocument, GroupDocument};
 use solvability::{ReactionVerdict, Verdict};
 
 use super::{ConfigurationAnalysis, requests};

@@ -2,8 +2,8 @@
 
 mod answer;
 
+use crate::documents::{DataDocument, SensitivityDocument};
 use model::System;
-use report::documents::{DataDocument, SensitivityDocument};
 use serde::Deserialize;
 
 pub use answer::CheckAnswer;

@@ -5,7 +5,7 @@ mod words;
 
 use dynamics::equilibrium::EquilibriumOptions;
 use model::System;
-use report::documents::ByName;
+use report::ByName;
 use report::{Family, PROVENANCE};
 use serde::Deserialize;
 

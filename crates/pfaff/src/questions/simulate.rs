@@ -6,9 +6,10 @@ pub use words::TRUSTED_BALANCE;
 
 use std::ops::ControlFlow;
 
+use crate::documents::EndedDocument;
+use crate::documents::RunDocument;
 use model::System;
-use report::documents::EndedDocument;
-use report::{OutputDirectory, RunDocument};
+use report::OutputDirectory;
 use serde::{Deserialize, Serialize};
 
 use crate::choice::choices;

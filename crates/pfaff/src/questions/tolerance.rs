@@ -5,7 +5,7 @@ mod words;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use report::documents::ToleranceDocument;
+use crate::documents::ToleranceDocument;
 use report::{Family, Table};
 use serde::{Deserialize, Serialize};
 

@@ -2,14 +2,14 @@
 
 use std::cmp::Reverse;
 
+use crate::documents::{
+    DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument, MeasureRangeDocument,
+    MovedDocument, QuantityRangeDocument, RangeDocument, RankCountDocument, ReactionRangeDocument,
+    RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts, distance,
+};
 use model::words::rounded;
 use model::{DataUnit, System};
-use report::documents::{
-    ByName, DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument,
-    MeasureRangeDocument, MovedDocument, QuantityRangeDocument, RangeDocument, RankCountDocument,
-    ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
-    distance,
-};
+use report::ByName;
 
 use super::ToleranceOptions;
 use super::nominal::{Nominal, Reading};

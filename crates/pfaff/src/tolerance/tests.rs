@@ -1,7 +1,7 @@
 //! Samples against closed forms: a beam, cranks that are nearly parallel, hinges on one axis.
 
+use crate::documents::{RangeDocument, ReactionRangeDocument, ToleranceDocument};
 use model::{Registry, Tolerance};
-use report::documents::{RangeDocument, ReactionRangeDocument, ToleranceDocument};
 
 use super::{ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, VariedText};
 use crate::assembled::AssembledScene;

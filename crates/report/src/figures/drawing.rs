@@ -113,7 +113,7 @@ pub(crate) struct DrawnMarker {
 
 /// Everything that is drawn.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct DrawingModel {
+pub struct DrawingModel {
     /// How space is seen; scripts need none for the plane.
     #[serde(skip_serializing_if = "Projection::is_plane")]
     pub(crate) view: Projection,
@@ -210,19 +210,21 @@ impl DrawingModel {
 }
 
 /// A mechanism with the frames of its bodies.
-pub(crate) struct Stage<'a> {
+pub struct Stage<'a> {
     /// The mechanism, or the part of it that is drawn.
-    pub(crate) mechanism: &'a Mechanism,
+    pub mechanism: &'a Mechanism,
     /// Indices of its bodies among all bodies.
-    pub(crate) bodies: &'a [usize],
+    pub bodies: &'a [usize],
     /// Indices of its coordinates among all coordinates.
-    pub(crate) coordinates: &'a [usize],
-    pub(crate) frames: &'a [Frame],
+    pub coordinates: &'a [usize],
+    /// The rows of the run.
+    pub frames: &'a [Frame],
 }
 
 impl Stage<'_> {
     /// What is drawn of its bodies and joints, and of the forces and markers on them in `whole`.
-    pub(crate) fn drawing(&self, whole: &Mechanism) -> DrawingModel {
+    #[must_use]
+    pub fn drawing(&self, whole: &Mechanism) -> DrawingModel {
         let forces = DrawnForce::all(whole, self.bodies);
         let probes = self.probes();
         let size = self.size();

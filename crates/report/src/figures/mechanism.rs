@@ -59,7 +59,7 @@ const TRIAD: [f64; 2] = [46.0, 40.0];
 const LONGEST: f64 = 48.0;
 
 /// The style sheet of pages and figures; the first rule names the colours.
-pub(crate) const LOOKS: &str = include_str!("picture.css");
+pub const LOOKS: &str = include_str!("picture.css");
 
 /// Draws a mechanism at coordinates q and time t.
 ///

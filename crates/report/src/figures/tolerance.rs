@@ -1,10 +1,10 @@
 //! Ranges of numbers over samples, as histograms one below the other; and places of a marker.
 
+use super::RangeDocument;
 use super::axis::{Axis, range as extent};
 use super::plot::{Frame, Labels, line};
 use super::style::{GREY, INK, TEXT_SIZE, dark_scheme};
 use super::svg::Svg;
-use crate::documents::RangeDocument;
 
 /// Width of a figure (px).
 const WIDTH: f64 = 960.0;

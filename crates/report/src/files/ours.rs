@@ -9,7 +9,7 @@ use std::path::Path;
 const HEAD: u64 = 1 << 12;
 
 /// The beginning of scenes that this program writes.
-pub const PROVENANCE: &str = "# WrittenFiles by pfaff";
+pub const PROVENANCE: &str = "# Written by pfaff";
 
 /// Whether nothing is lost if a file is replaced: it does not exist, is empty, or was written by
 /// this program. What cannot be read is not ours.

@@ -3,8 +3,8 @@
 
 use super::document::Extent;
 use super::{Records, SweepDocument};
-use crate::documents::write_json;
 use crate::files::{Family, FileError, OutputDirectory};
+use crate::json::write_json;
 use crate::tables::{Table, TableError};
 
 /// The tables of a sweep.

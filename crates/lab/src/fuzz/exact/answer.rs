@@ -1,9 +1,9 @@
 //! The answer of `pfaff analyze` for a text, as its document.
 
+use pfaff::documents::DistributionDocument;
+use pfaff::documents::MakeUniqueDocument;
 use pfaff::model::Registry;
 use pfaff::rank::Limits;
-use pfaff::report::documents::DistributionDocument;
-use pfaff::report::documents::MakeUniqueDocument;
 use pfaff::solvability::{Choice, DeletableRows, NormWeights, Verdict};
 use pfaff::{AssembledScene, ConfigurationAnalysis, RunOptions, StudyError};
 use serde_json::Value;

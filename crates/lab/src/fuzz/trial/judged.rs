@@ -1,8 +1,9 @@
 //! Properties that a start and the verdicts there must have.
 
+use pfaff::documents::AnalysisDocument;
 use pfaff::model::System;
 use pfaff::rank::RankStatus;
-use pfaff::report::{AnalysisDocument, write_json};
+use pfaff::report::write_json;
 use pfaff::solvability::Verdict;
 use pfaff::{ConfigurationAnalysis, Study};
 

@@ -1,9 +1,9 @@
 //! Verdicts along the motion in words.
 
+use crate::documents::{AlongDocument, AlongReactionDocument, SpecialDocument};
 use model::words::rounded;
-use report::documents::{AlongDocument, AlongReactionDocument, SpecialDocument};
 
-use super::words::spoken;
+use super::phrases::spoken;
 use crate::words::{Block, count};
 
 /// Judged states farther apart than this may miss a change: a fraction of the mechanism's size, or

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use report::AnalysisDocument;
+use crate::documents::AnalysisDocument;
 
 use crate::words::Block;
 

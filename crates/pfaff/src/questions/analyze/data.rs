@@ -1,7 +1,7 @@
 //! The tolerances of the data and their consequences, in sentences.
 
+use crate::documents::AnalysisDocument;
 use model::words::length;
-use report::AnalysisDocument;
 
 use crate::words::Block;
 

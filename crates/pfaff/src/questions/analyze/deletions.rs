@@ -1,7 +1,7 @@
 //! The rows that may be deleted, in words.
 
-use report::AnalysisDocument;
-use report::documents::MakeUniqueDocument;
+use crate::documents::AnalysisDocument;
+use crate::documents::MakeUniqueDocument;
 
 use crate::words::{Block, count};
 

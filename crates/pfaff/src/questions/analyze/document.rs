@@ -1,16 +1,16 @@
 //! The document of one configuration, with answers to the options.
 
-use model::System;
-use rank::{DeletionError, Limits};
-use report::AnalysisDocument;
-use report::documents::{
+use crate::documents::AnalysisDocument;
+use crate::documents::{
     DistributionDocument, EliminationsDocument, MakeUniqueDocument, ValuesDocument,
 };
-use scene::in_si;
+use model::System;
+use rank::{DeletionError, Limits};
 use solvability::{DeletableRows, EliminationError, Verdict};
 
-use super::Analyze;
+use super::additions::ADDITIONS;
 use super::deletions::HINTS;
+use super::options::Analyze;
 use crate::choice;
 use crate::configuration::ConfigurationAnalysis;
 use crate::error::StudyError;
@@ -36,9 +36,9 @@ pub(super) fn of(
     let wanted = wanted.map_err(failure)?;
     let reaction = |name: &str| configuration.reaction(name);
     let choices = choice::choices(&asked.choose, of, (layout.rows(), &reaction))?;
-    let about = asked.about.as_deref();
-    let about = about.map(|text| point(text, configuration));
-    let about = about.transpose()?;
+    for addition in ADDITIONS {
+        addition.check(asked, configuration)?;
+    }
     let mut document = configuration.document(&asked.combine).map_err(failure)?;
     if let Some(n) = asked.eliminations {
         let sets = configuration.elimination_sets(n);
@@ -54,11 +54,8 @@ pub(super) fn of(
             .make_unique
             .push(MakeUniqueDocument::new(name, &allowed, found));
     }
-    if asked.frames {
-        configuration.add_frames(&mut document).map_err(failure)?;
-    }
-    if let Some(about) = about {
-        let added = configuration.add_moments(&mut document, layout.constraint_ids(), about);
+    for addition in ADDITIONS {
+        let added = addition.add(asked, configuration, &mut document);
         added.map_err(failure)?;
     }
     for choice in &choices {
@@ -104,26 +101,4 @@ pub(super) fn hints(
             },
         )
         .collect()
-}
-
-/// The point of `--about`: coordinates, or the place of a marker.
-fn point(text: &str, configuration: &ConfigurationAnalysis<'_>) -> Result<[f64; 3], Refusal> {
-    if let Some(place) = configuration.marker(text) {
-        return Ok(place);
-    }
-    let n = configuration.mechanism.layout().space.n_translations();
-    let numbers: Option<Vec<f64>> = text.split(',').map(|x| in_si(x, "1 m")).collect();
-    let mut point = [0.0; 3];
-    match numbers {
-        Some(numbers) if numbers.len() == n => {
-            point[..n].copy_from_slice(&numbers);
-            Ok(point)
-        }
-        _ => {
-            let form = ["X", "Y", "Z"][..n].join(",");
-            Err(Refusal::input(format!(
-                "--about is `{text}`, need {n} numbers as {form} (m, or with units, as 310mm), or the name of a marker"
-            )))
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! Reactions in numbers, for the requested choices.
 
-use report::documents::{DistributionDocument, ValueDocument, ValuesDocument};
+use crate::documents::{DistributionDocument, ValueDocument, ValuesDocument};
 
 use crate::words::Block;
 

@@ -1,7 +1,7 @@
 //! The rank and the facts that it is based on, in sentences.
 
-use report::AnalysisDocument;
-use report::documents::{PartsDocument, ReactionDocument};
+use crate::documents::AnalysisDocument;
+use crate::documents::{PartsDocument, ReactionDocument};
 use solvability::ONE_PART;
 
 use crate::words::{Block, count};

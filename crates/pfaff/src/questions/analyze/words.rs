@@ -2,12 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use report::AnalysisDocument;
-use report::documents::{
-    ComponentDocument, GroupDocument, MakeUniqueDocument, MixingDocument, ReactionDocument,
-    SensitivityDocument, ValueDocument, VerdictDocument,
+use crate::documents::AnalysisDocument;
+use crate::documents::{
+    GroupDocument, MakeUniqueDocument, MixingDocument, ReactionDocument, ValueDocument,
+    VerdictDocument,
 };
 
+use super::additions::ADDITIONS;
+use super::phrases::{coordinates, each, hanging, spoken};
 use super::{along, counts, data, deletions, numbers, rank};
 use crate::words::{Block, count};
 
@@ -31,8 +33,8 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
     });
     out.extend(fragile(d));
     out.extend(groups(d));
-    out.extend(frames(d));
-    out.extend(moments(d));
+    out.extend(ADDITIONS.iter().flat_map(|addition| addition.words(d)));
+    out.extend(centres(d));
     out.extend(why(d));
     out.extend(deletions::of(d, hints));
     out.extend(numbers::of(&d.answers.choices));
@@ -76,11 +78,6 @@ fn heading(d: &AnalysisDocument) -> Vec<Block> {
             "{bodies}, {coordinates}{velocities}, {rows}: {holonomic} holonomic, {nonholonomic} nonholonomic"
         )),
     ]
-}
-
-/// A word of the document in prose, as `not unique` for `not_unique`.
-pub(super) fn spoken(word: &str) -> String {
-    word.replace('_', " ")
 }
 
 fn verdicts(d: &AnalysisDocument) -> Vec<Block> {
@@ -148,11 +145,6 @@ fn fragile_components(r: &ReactionDocument) -> String {
     each(&fragile.collect::<Vec<_>>())
 }
 
-/// The addition to a verdict that depends on the last digits of the data.
-fn hanging(data: &SensitivityDocument) -> &'static str {
-    if data.fragile { ", FRAGILE" } else { "" }
-}
-
 /// The data that fragile reactions depend on.
 fn fragile(d: &AnalysisDocument) -> Vec<Block> {
     let sentences = &d.fragile;
@@ -174,27 +166,6 @@ fn margin(v: &VerdictDocument) -> String {
         "unique" if !v.within_tolerance => "~0".to_owned(),
         _ => format!("{:.1e}", v.margin),
     }
-}
-
-/// The addition to a verdict that holds only within the tolerance, with its margin.
-fn within(v: &VerdictDocument) -> String {
-    if v.within_tolerance {
-        format!(" within the tolerance ({:.1e})", v.margin)
-    } else {
-        String::new()
-    }
-}
-
-fn each(components: &[ComponentDocument]) -> String {
-    let words = components.iter();
-    let words: Vec<String> = words
-        .map(|c| {
-            let spoken = spoken(c.verdict.verdict);
-            let (within, fragile) = (within(&c.verdict), hanging(&c.data));
-            format!("{} {spoken}{within}{fragile}", c.name)
-        })
-        .collect();
-    words.join(", ")
 }
 
 /// Unique directions that are not parallel to an axis: the components do not show them.
@@ -269,20 +240,9 @@ fn numbers_of(g: &GroupDocument) -> String {
     }
 }
 
-/// Moments about the point that was asked for, and points about which moments are unique.
-fn moments(d: &AnalysisDocument) -> Vec<Block> {
+/// Points about which moments are unique.
+fn centres(d: &AnalysisDocument) -> Vec<Block> {
     let mut out = Vec::new();
-    let wanted = d.reactions.iter();
-    let wanted: Vec<_> = wanted
-        .filter_map(|r| Some((r, r.moment.as_ref()?)))
-        .collect();
-    if let Some((_, moment)) = wanted.first() {
-        let about = coordinates(&moment.about);
-        out.push(Block::Heading(format!("Moments about {about} m:")));
-        let lines = wanted.iter();
-        let lines = lines.map(|(r, moment)| vec![r.name.clone(), each(&moment.components)]);
-        out.push(Block::Table(lines.collect()));
-    }
     let mut centres: Vec<(String, Vec<&str>)> = Vec::new();
     for r in &d.reactions {
         let Some(centre) = r.moment_unique_about.as_ref().map(|p| coordinates(p)) else {
@@ -302,37 +262,6 @@ fn moments(d: &AnalysisDocument) -> Vec<Block> {
         out.extend([Block::Gap, Block::sentence(text)]);
     }
     out
-}
-
-/// A point with four decimals.
-fn coordinates(point: &[f64]) -> String {
-    let rounded = |x: &f64| ((1e4 * x).round() / 1e4 + 0.0).to_string();
-    let numbers: Vec<String> = point.iter().map(rounded).collect();
-    format!("({})", numbers.join(", "))
-}
-
-/// Only for reactions that are not unique; the others are unique in every frame.
-fn frames(d: &AnalysisDocument) -> Vec<Block> {
-    let open = d.reactions.iter().filter(|r| r.wrench.verdict != "unique");
-    let lines = open.flat_map(|r| {
-        r.frames.iter().map(|f| {
-            let axis = f.axes[0].iter().map(|x| format!("{x:.3}"));
-            let axis = axis.collect::<Vec<_>>().join(", ");
-            [
-                r.name.clone(),
-                spoken(f.frame),
-                format!("({axis})"),
-                each(&f.components),
-            ]
-        })
-    });
-    let lines: Vec<_> = lines.collect();
-    if lines.is_empty() {
-        return Vec::new();
-    }
-    let header = ["reaction", "frame", "first axis", "components"];
-    let heading = Block::Heading("In other frames:".to_owned());
-    vec![heading, Block::table(header, lines)]
 }
 
 fn why(d: &AnalysisDocument) -> Vec<Block> {

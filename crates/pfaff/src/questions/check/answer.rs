@@ -1,7 +1,7 @@
 //! What a scene is, once it is assembled.
 
+use crate::documents::FreedomsDocument;
 use model::{Mechanism, System};
-use report::documents::FreedomsDocument;
 use scene::{Diagnostic, Scene};
 use serde::Serialize;
 use solvability::Freedoms;

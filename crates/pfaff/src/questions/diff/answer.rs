@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use report::AnalysisDocument;
-use report::documents::{ComponentDocument, DependencyDocument, ReactionDocument};
+use crate::documents::AnalysisDocument;
+use crate::documents::{ComponentDocument, DependencyDocument, ReactionDocument};
 use serde::Serialize;
 
 use super::comparison::Comparison;

@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
+use crate::documents::AnalysisDocument;
+use crate::documents::{DependencyDocument, ReactionDocument};
 use dynamics::{MotionOptions, Sample};
 use model::{FrameState, Mechanism};
-use report::AnalysisDocument;
-use report::documents::{DependencyDocument, ReactionDocument};
 
 use super::answer::{DiffBody, DiffMotion};
 use crate::error::StudyError;

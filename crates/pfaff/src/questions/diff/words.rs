@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use report::documents::DependencyDocument;
+use crate::documents::DependencyDocument;
 
 use super::answer::{DiffAnswer, DiffMotion, DiffReaction};
 use crate::words::Block;

@@ -1,9 +1,10 @@
 //! A place of rest: how far it is from the start, what is left of the forces, reactions there.
 
+use crate::documents::{SensitivityDocument, VerdictDocument};
 use dynamics::equilibrium::{Equilibrium, RestStability};
 use linalg::kernels::norm;
 use model::{Layout, Mechanism, SpaceKind, System};
-use report::documents::{ByName, SensitivityDocument, VerdictDocument};
+use report::ByName;
 use serde::Serialize;
 use solvability::{ReactionValues, ReactionVerdict, Sensitivities, Value};
 

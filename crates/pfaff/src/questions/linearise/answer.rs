@@ -2,7 +2,7 @@
 
 use dynamics::linearise::{Coordinate, Linearisation, Mode, Stability};
 use linalg::Matrix;
-use report::documents::ByName;
+use report::ByName;
 use serde::Serialize;
 
 /// A linearised motion.

@@ -1,8 +1,9 @@
 //! Pages on which modes move.
 
+use crate::page::{Origin, RunPage, Shows, run_page};
 use dynamics::linearise::{Linearisation, Mode};
 use model::System;
-use report::{Frame, Origin, Recording, RunPage, Shows, run_page};
+use report::{Frame, Recording};
 
 use super::words::value;
 use crate::report_builder::written_scene;

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
+use crate::documents::decision_key;
 use dynamics::plan::{ComponentPlan, Line, Plan, Saving};
-use report::decision_key;
 use serde::Serialize;
 
 /// What a run computes and omits.

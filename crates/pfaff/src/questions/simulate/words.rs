@@ -1,8 +1,8 @@
 //! A run in words.
 
+use crate::documents::RunDocument;
+use crate::documents::{ChoiceDocument, MisfitDocument, RunReactionDocument, choice_file};
 use model::words::{listed, rounded};
-use report::RunDocument;
-use report::documents::{ChoiceDocument, MisfitDocument, RunReactionDocument, choice_file};
 
 use super::SimulateAnswer;
 use crate::words::{Block, count};

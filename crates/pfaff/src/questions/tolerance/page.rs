@@ -1,7 +1,7 @@
 //! `tolerance.html`: how far verdicts, reactions and places hold while data vary within their
 //! tolerances. One file that opens offline, without scripts.
 
-use report::documents::{
+use crate::documents::{
     MarkerRangeDocument, RangeDocument, ReactionRangeDocument, ToleranceDocument,
 };
 use report::page::{add, close, list, open, safe};

@@ -1,7 +1,7 @@
 //! How far verdicts, reactions and places hold, in words.
 
+use crate::documents::{ReactionRangeDocument, ToleranceDocument, distance};
 use model::words::rounded;
-use report::documents::{ReactionRangeDocument, ToleranceDocument, distance};
 
 use crate::words::Block;
 

@@ -7,8 +7,8 @@ use super::data::{Cast, Data};
 use super::run_page::{RunPage, Shows};
 use super::{inputs, motion, peaks, verdicts};
 use crate::documents::{FreedomsDocument, RunDocument};
-use crate::figures::LOOKS;
-use crate::page::{add, safe, short};
+use report::figures::LOOKS;
+use report::page::{add, safe, short};
 
 const STYLE: &str = include_str!("report.css");
 
@@ -413,7 +413,7 @@ fn events(out: &mut String, run: &RunDocument) {
 
 fn close(out: &mut String, data: &Data<'_>) {
     // Only numbers and names, so this cannot fail.
-    let json = serde_json::to_string(data).unwrap_or_else(|_| "null".to_owned());
+    let json = report::part_as_json(data).unwrap_or_else(|_| "null".to_owned());
     add(
         out,
         format_args!(

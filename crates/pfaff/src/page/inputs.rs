@@ -7,7 +7,7 @@ use super::curves;
 use super::data::{self, Cast};
 use super::run_page::RunPage;
 use crate::documents::{MisfitDocument, RunDocument};
-use crate::page::{add, duration, list, safe, short};
+use report::page::{add, duration, list, safe, short};
 
 /// Largest size of a scene included in a page (bytes).
 const SCENE_MOST: usize = 200_000;

@@ -6,7 +6,7 @@ use model::SpaceKind;
 use super::data::Data;
 use super::first_order::FirstOrder;
 use super::run_page::RunPage;
-use crate::page::{add, safe};
+use report::page::{add, safe};
 
 /// What the section of the picture is called.
 pub(super) fn title(page: &RunPage<'_>) -> &'static str {

@@ -54,11 +54,11 @@ fn documents(mechanism: &Mechanism) -> (Value, Value) {
         AnalysisDocument::new("four-bar", &analysis, None).with_freedoms(&freedoms, mechanism);
     let explanation = questions.explanation().expect("small").expect("decided");
     document.explain(&explanation, mechanism.layout());
-    let frames = mechanism
-        .layout()
-        .constraint_ids()
-        .map(|id| questions.frames(id).expect("small"));
-    document.add_frames(&frames.collect::<Vec<_>>());
+    let joints = mechanism.layout().constraint_ids();
+    for (id, reaction) in joints.zip(&mut document.reactions) {
+        let frames = questions.frames(id).expect("small");
+        reaction.frames = frames.iter().map(Into::into).collect();
+    }
     let sum = Group::WrenchSum(vec![(1.0, ConstraintId(0)), (-1.0, ConstraintId(3))]);
     let sum = GroupDocument::new("A - D", &questions.group(&sum).expect("small"));
     let [document, sum] = [serde_json::to_value(document), serde_json::to_value(sum)]

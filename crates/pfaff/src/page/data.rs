@@ -10,10 +10,10 @@ use super::comparison::{Comparison, Freedom};
 use super::curves::{Curves, largest};
 use super::first_order::FirstOrder;
 use super::run_page::RunPage;
-use crate::channel::Channel;
 use crate::documents::{EventDocument, ReactionDocument};
-use crate::figures::drawing::{DrawingModel, Stage};
-use crate::recording::Frame;
+use report::Frame;
+use report::channel::Channel;
+use report::figures::drawing::{DrawingModel, Stage};
 
 /// Largest number of joints and drives, and of bodies, that are drawn and plotted.
 pub(super) const DRAWN_MAX: usize = 1200;
@@ -411,5 +411,5 @@ const SHOWN: usize = 10;
 
 /// Number of digits of the levels of a curve.
 pub(super) fn levels() -> u64 {
-    crate::channel::LEVELS as u64
+    report::channel::LEVELS as u64
 }

@@ -1,60 +1,10 @@
-//! Results as JSON documents: plain structs whose fields are the keys, in their order. Rows are
-//! counted from 1, as in all texts for users. JSON has no NaN and no infinity: such numbers are
-//! `null`.
-
-mod analysis;
-mod answers;
-mod freedoms;
-mod impulses;
-mod misfits;
-mod motion;
-mod plan;
-mod run;
-mod sensitivity;
-#[cfg(test)]
-mod tests;
-mod tolerance;
-mod verdicts;
+//! Documents as JSON: their head, and objects whose keys are names.
 
 use std::io::{self, Write};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde::ser::{SerializeMap, Serializer};
-use solvability::{Judgement, Verdict};
-
-pub use analysis::{
-    AlongDocument, AlongReactionDocument, AnalysisDocument, AnswersDocument, ComponentDocument,
-    ConfigurationDocument, ContinuationDocument, DataDocument, DependencyDocument,
-    DifferenceDocument, DistributionDocument, EliminationsDocument, EvidenceDocument,
-    FrameDocument, FreeDirectionDocument, GenericDocument, GenericRankDocument, GroupDocument,
-    MakeUniqueDocument, MixingDocument, MomentAboutDocument, NearlyRedundantDocument, NoteDocument,
-    PartsDocument, PassageDocument, PointDocument, RanksDocument, ReactionDocument,
-    ReasonsDocument, RowDocument, StretchDocument, ValueDocument, ValuesDocument, WayDocument,
-};
-pub use answers::{
-    CodeDocument, CodesDocument, EndedDocument, ImportDocument, NewDocument, OmissionDocument,
-    RefusalDocument, TemplateDocument, TemplatesDocument, ViewDocument,
-};
-pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
-pub use impulses::ImpulseDocument;
-pub use misfits::{MisfitDocument, SpreadDocument};
-pub use motion::{MomentDocument, MotionDocument};
-pub use plan::decision_key;
-pub use run::{
-    ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Gap, Run, RunDocument, choice_file,
-};
-pub use sensitivity::SensitivityDocument;
-pub use tolerance::{
-    DescribedDocument, DrawnDocument, FailureDocument, HistogramDocument, MarkerRangeDocument,
-    MeasureRangeDocument, MovedDocument, QuantityRangeDocument, RangeDocument, RankCountDocument,
-    ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
-    distance,
-};
-pub use verdicts::{
-    PeakDocument, RunGroupDocument, RunNumberDocument, RunReactionDocument, RunVerdicts,
-    SpecialDocument, TrackDocument,
-};
 
 /// Number of the format of documents: it grows when an entry changes its meaning or disappears.
 pub const FORMAT: u32 = 2;
@@ -109,39 +59,6 @@ pub fn read_json<T: DeserializeOwned>(text: &str) -> Result<T, String> {
 /// If the part cannot be written.
 pub fn part_as_json(part: &impl Serialize) -> io::Result<String> {
     Ok(serde_json::to_string(part)?)
-}
-
-/// A verdict with its number: `verdict`, `margin`, `within_tolerance`, and a `reason` if it is
-/// undecided.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[non_exhaustive]
-pub struct VerdictDocument {
-    /// `unique`, `not_unique` or `undecided`.
-    pub verdict: &'static str,
-    /// Reason why it is undecided.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
-    /// Distance of the reaction from being unique; 0 for a unique reaction.
-    pub margin: f64,
-    /// Whether it is unique only within the tolerance that the scene states: the margin is above
-    /// the rounding of the data, but data within their tolerance explain it.
-    pub within_tolerance: bool,
-}
-
-impl From<&Judgement> for VerdictDocument {
-    fn from(judgement: &Judgement) -> Self {
-        let reason = match &judgement.verdict {
-            Verdict::Undecided { reason } => Some(reason.clone()),
-            _ => None,
-        };
-        Self {
-            verdict: judgement.verdict.word(),
-            reason,
-            margin: judgement.margin,
-            within_tolerance: judgement.within_tolerance,
-        }
-    }
 }
 
 /// An object whose keys are names, in this order.
@@ -205,9 +122,4 @@ impl<T: Serialize> Serialize for ByName<T> {
         }
         map.end()
     }
-}
-
-/// Row numbers counted from 1.
-fn from_one(rows: &[usize]) -> Vec<usize> {
-    rows.iter().map(|row| row + 1).collect()
 }

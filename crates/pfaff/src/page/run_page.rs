@@ -5,8 +5,8 @@ use solvability::Stretches;
 
 use super::comparison::Comparison;
 use crate::documents::{AnalysisDocument, FreedomsDocument, MakeUniqueDocument, RunDocument};
-use crate::recording::Recording;
-use crate::work_precision::Provenance;
+use report::Provenance;
+use report::Recording;
 
 /// The contents of a page.
 pub struct RunPage<'a> {

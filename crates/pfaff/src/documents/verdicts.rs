@@ -10,8 +10,8 @@ use solvability::{
 };
 
 use super::{ByName, SensitivityDocument, VerdictDocument};
-use crate::peaks::Peak;
-use crate::tables::{Quantity, ReactionColumn};
+use report::peaks::Peak;
+use report::tables::{Quantity, ReactionColumn};
 
 /// The verdict of a number over a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]

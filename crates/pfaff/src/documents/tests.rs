@@ -20,13 +20,13 @@ use solvability::{
     Sensitivity, Stretches, Verdict, VerdictStretch, VerdictTrack, analyse,
 };
 
-use crate::peaks::Peak;
-use crate::tables::{Selection, columns_of_reactions};
+use report::peaks::Peak;
+use report::tables::{Selection, columns_of_reactions};
 
 use super::{
     AnalysisDocument, DataDocument, Ending, FreedomsDocument, Run, RunDocument, RunVerdicts,
-    write_json,
 };
+use report::write_json;
 
 fn judged(verdict: Verdict, margin: f64) -> Judgement {
     Judgement::new(verdict, margin)

@@ -4,8 +4,8 @@ use model::{Measure, Mechanism, System};
 use serde::Serialize;
 
 use super::run_page::{DriveCurve, RunPage};
-use crate::channel::Channel;
-use crate::recording::Frame;
+use report::Frame;
+use report::channel::Channel;
 
 /// Largest number of measures that are plotted.
 pub(super) const MEASURES_MAX: usize = 24;

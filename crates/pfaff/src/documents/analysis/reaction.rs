@@ -1,15 +1,17 @@
 //! The verdict on a joint or drive, with all requested results.
 
-use model::{ConstraintId, Frame, Layout, SpaceKind};
+use model::{ConstraintId, Layout, SpaceKind};
 use rank::StructureVerdict;
 use serde::Serialize;
 use solvability::{
-    ComponentVerdict, Explanation, FrameVerdict, FreeDirection, GenericVerdict, GroupSensitivities,
-    GroupVerdict, NoFiniteReaction, ReactionVerdict, Sensitivities, Sensitivity, Value, Verdict,
+    Explanation, FreeDirection, GenericVerdict, GroupSensitivities, GroupVerdict, NoFiniteReaction,
+    ReactionVerdict, Sensitivities, Value, Verdict,
 };
 
-use super::ValueDocument;
+use super::{ComponentDocument, ValueDocument};
 use crate::documents::{SensitivityDocument, VerdictDocument};
+use crate::questions::analyze::about::MomentAboutDocument;
+use crate::questions::analyze::frames::FrameDocument;
 
 /// The verdict on a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -72,17 +74,6 @@ pub struct ReactionDocument {
     pub no_finite_reaction: Option<NoFiniteReaction>,
 }
 
-/// The verdict on a moment about a point.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[non_exhaustive]
-pub struct MomentAboutDocument {
-    /// The point (m), ground axes.
-    pub about: Vec<f64>,
-    /// Verdicts on its components.
-    pub components: Vec<ComponentDocument>,
-}
-
 /// The verdict of a multiplier.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -93,25 +84,6 @@ pub struct RowDocument {
     /// Its verdict.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
-}
-
-/// The verdict of a component of a reaction or of a sum.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[non_exhaustive]
-pub struct ComponentDocument {
-    /// `Fx`, `Fy` or `T`; in space `Fx` to `Tz`; or the named component of a definition.
-    pub name: &'static str,
-    /// Its verdict.
-    #[serde(flatten)]
-    pub verdict: VerdictDocument,
-    /// The verdict at nearly all configurations, as for the reaction; absent for components in
-    /// other frames, of moments and of sums.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub generic_verdict: Option<Option<&'static str>>,
-    /// How strongly it depends on the data, if it is unique.
-    #[serde(flatten)]
-    pub data: SensitivityDocument,
 }
 
 /// Load on a joint in a self-stress, scaled for drawing: the largest force of the self-stress is 1
@@ -142,21 +114,8 @@ pub enum TorqueDocument {
 }
 
 /// The components that a vector has in a space.
-pub(super) fn components(space: SpaceKind, vector: [f64; 3]) -> Vec<f64> {
+pub(crate) fn components(space: SpaceKind, vector: [f64; 3]) -> Vec<f64> {
     vector[..space.n_translations()].to_vec()
-}
-
-/// The verdicts of a reaction in one frame.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[non_exhaustive]
-pub struct FrameDocument {
-    /// `global`, `first_body`, `joint` or `edge`.
-    pub frame: &'static str,
-    /// Unit vectors of the axes, global components.
-    pub axes: Vec<Vec<f64>>,
-    /// Verdicts on the components along the axes, and on the torque.
-    pub components: Vec<ComponentDocument>,
 }
 
 /// The verdict of a combination of reactions.
@@ -370,52 +329,6 @@ fn written(r: &ReactionVerdict, direction: &[f64]) -> Vec<f64> {
         }
     }
     all
-}
-
-impl ComponentDocument {
-    /// Adds the sensitivities of unique components, given with the names of their reactions.
-    pub(super) fn add_sensitivities<'d>(
-        all: impl Iterator<Item = (&'d String, &'d mut Self)>,
-        found: Vec<Option<Sensitivity>>,
-        layout: &Layout,
-    ) {
-        let unique = all.filter(|(_, c)| c.verdict.verdict == "unique");
-        for ((reaction, c), found) in unique.zip(found) {
-            let name = format!("{reaction}.{}", c.name);
-            c.data = SensitivityDocument::of_number(found.as_ref(), &name, layout);
-        }
-    }
-}
-
-impl From<&ComponentVerdict> for ComponentDocument {
-    fn from(component: &ComponentVerdict) -> Self {
-        Self {
-            name: component.name,
-            verdict: (&component.judgement).into(),
-            generic_verdict: None,
-            data: SensitivityDocument::default(),
-        }
-    }
-}
-
-impl From<&FrameVerdict> for FrameDocument {
-    fn from(found: &FrameVerdict) -> Self {
-        let frame = match found.frame {
-            Frame::Global => "global",
-            Frame::FirstBody => "first_body",
-            Frame::Joint => "joint",
-            Frame::Edge => "edge",
-        };
-        Self {
-            frame,
-            axes: found
-                .axes
-                .iter()
-                .map(|axis| axis[..found.axes.len()].to_vec())
-                .collect(),
-            components: found.components.iter().map(Into::into).collect(),
-        }
-    }
 }
 
 impl GroupDocument {

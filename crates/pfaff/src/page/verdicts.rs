@@ -3,7 +3,7 @@
 
 use super::run_page::RunPage;
 use crate::documents::{MakeUniqueDocument, ReactionDocument, RunReactionDocument};
-use crate::page::{add, safe, short};
+use report::page::{add, safe, short};
 
 /// Largest number of lines of a list.
 pub(super) const MOST: usize = 40;

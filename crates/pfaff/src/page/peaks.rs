@@ -7,8 +7,8 @@ use model::{ConstraintId, Mechanism, Reaction, System};
 use super::run_page::RunPage;
 use super::{data, verdicts};
 use crate::documents::RunReactionDocument;
-use crate::page::{add, safe};
-use crate::recording::Frame;
+use report::Frame;
+use report::page::{add, safe};
 
 /// Largest number of lines of the table.
 const LINES: usize = 300;

@@ -3,6 +3,7 @@
 
 mod along;
 mod choices;
+mod component;
 mod data;
 mod deletions;
 mod evidence;
@@ -12,11 +13,10 @@ mod reaction;
 use std::collections::BTreeSet;
 
 use model::{ConstraintId, Layout, Mechanism, SpaceKind};
-use reaction::components;
 use serde::Serialize;
 use solvability::{
-    Analysis, Dependency, Explanation, FrameVerdict, Freedoms, Generic, GenericVerdict, Mixing,
-    MomentVerdict, NoFiniteReaction, PartAnalysis, ReactionVerdict, Sensitivities, Sensitivity,
+    Analysis, Dependency, Explanation, Freedoms, Generic, GenericVerdict, Mixing, NoFiniteReaction,
+    PartAnalysis, ReactionVerdict, Sensitivities,
 };
 
 pub use along::{
@@ -24,14 +24,13 @@ pub use along::{
     GenericRankDocument, PassageDocument, StretchDocument,
 };
 pub use choices::{DistributionDocument, ValueDocument, ValuesDocument};
+pub use component::ComponentDocument;
 pub use data::DataDocument;
 pub use deletions::{EliminationsDocument, MakeUniqueDocument, WayDocument};
 pub use evidence::{EvidenceDocument, GenericDocument, NearlyRedundantDocument, PointDocument};
 pub use notes::NoteDocument;
-pub use reaction::{
-    ComponentDocument, FrameDocument, FreeDirectionDocument, GroupDocument, MomentAboutDocument,
-    ReactionDocument, RowDocument,
-};
+pub(crate) use reaction::components;
+pub use reaction::{FreeDirectionDocument, GroupDocument, ReactionDocument, RowDocument};
 
 use super::{FreedomsDocument, from_one};
 
@@ -284,29 +283,6 @@ impl AnalysisDocument {
         }
     }
 
-    /// Adds how strongly components in other frames depend on the data: one sensitivity for each
-    /// unique one, in their order.
-    pub fn add_frame_sensitivities(&mut self, found: Vec<Option<Sensitivity>>, layout: &Layout) {
-        let reactions = self.reactions.iter_mut();
-        let all = reactions.flat_map(|r| {
-            let name = &r.name;
-            let frames = r.frames.iter_mut();
-            frames.flat_map(move |f| f.components.iter_mut().map(move |c| (name, c)))
-        });
-        ComponentDocument::add_sensitivities(all, found, layout);
-    }
-
-    /// The same for moments about another point.
-    pub fn add_moment_sensitivities(&mut self, found: Vec<Option<Sensitivity>>, layout: &Layout) {
-        let reactions = self.reactions.iter_mut();
-        let all = reactions.flat_map(|r| {
-            let name = &r.name;
-            let moments = r.moment.iter_mut();
-            moments.flat_map(move |m| m.components.iter_mut().map(move |c| (name, c)))
-        });
-        ComponentDocument::add_sensitivities(all, found, layout);
-    }
-
     /// The reactions with a fragile component.
     pub fn fragile_reactions(&self) -> impl Iterator<Item = &ReactionDocument> {
         self.reactions.iter().filter(|r| r.data.fragile)
@@ -376,24 +352,9 @@ impl AnalysisDocument {
         self.notes = NoteDocument::all(layout);
     }
 
-    /// Adds the verdict on the moment of a reaction about a point.
-    pub fn add_moment(&mut self, id: ConstraintId, space: SpaceKind, found: &MomentVerdict) {
-        self.reactions[id.0].moment = Some(MomentAboutDocument {
-            about: components(space, found.about),
-            components: found.components.iter().map(Into::into).collect(),
-        });
-    }
-
     /// Adds the point about which the moment of a reaction is unique.
     pub fn add_centre(&mut self, id: ConstraintId, space: SpaceKind, centre: [f64; 3]) {
         self.reactions[id.0].moment_unique_about = Some(components(space, centre));
-    }
-
-    /// Adds the verdicts in other frames, joint by joint.
-    pub fn add_frames(&mut self, frames: &[Vec<FrameVerdict>]) {
-        for (reaction, frames) in self.reactions.iter_mut().zip(frames) {
-            reaction.frames = frames.iter().map(Into::into).collect();
-        }
     }
 }
 

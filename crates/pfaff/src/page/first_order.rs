@@ -8,8 +8,8 @@ use serde::Serialize;
 
 use super::data::Cast;
 use super::run_page::{RunPage, Shows};
-use crate::channel::FewDigits;
 use crate::documents::DependencyDocument;
+use report::channel::FewDigits;
 
 /// Largest number of free motions, and of self-stresses, that can be chosen.
 const MOST: usize = 40;

@@ -1,0 +1,52 @@
+//! The verdict on a component of a reaction.
+
+use model::Layout;
+use serde::Serialize;
+use solvability::{ComponentVerdict, Sensitivity};
+
+use crate::documents::{SensitivityDocument, VerdictDocument};
+
+/// The verdict of a component of a reaction or of a sum.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct ComponentDocument {
+    /// `Fx`, `Fy` or `T`; in space `Fx` to `Tz`; or the named component of a definition.
+    pub name: &'static str,
+    /// Its verdict.
+    #[serde(flatten)]
+    pub verdict: VerdictDocument,
+    /// The verdict at nearly all configurations, as for the reaction; absent for components in
+    /// other frames, of moments and of sums.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub generic_verdict: Option<Option<&'static str>>,
+    /// How strongly it depends on the data, if it is unique.
+    #[serde(flatten)]
+    pub data: SensitivityDocument,
+}
+
+impl ComponentDocument {
+    /// Adds the sensitivities of unique components, given with the names of their reactions.
+    pub(crate) fn add_sensitivities<'d>(
+        all: impl Iterator<Item = (&'d String, &'d mut Self)>,
+        found: Vec<Option<Sensitivity>>,
+        layout: &Layout,
+    ) {
+        let unique = all.filter(|(_, c)| c.verdict.verdict == "unique");
+        for ((reaction, c), found) in unique.zip(found) {
+            let name = format!("{reaction}.{}", c.name);
+            c.data = SensitivityDocument::of_number(found.as_ref(), &name, layout);
+        }
+    }
+}
+
+impl From<&ComponentVerdict> for ComponentDocument {
+    fn from(component: &ComponentVerdict) -> Self {
+        Self {
+            name: component.name,
+            verdict: (&component.judgement).into(),
+            generic_verdict: None,
+            data: SensitivityDocument::default(),
+        }
+    }
+}
