@@ -665,7 +665,7 @@ impl Scene {
             let (tolerance, budget) = (common.tolerance(), common.budget()?);
             let starts: Vec<_> = all.iter().map(|own| own.start(tolerance, budget)).collect();
             let provenance = Provenance {
-                machine: machine(),
+                machine: MACHINE.clone(),
                 versions: format!("pfaff {}", env!("CARGO_PKG_VERSION")),
                 date: date(),
                 command: FROM_PYTHON.to_owned(),
@@ -690,6 +690,9 @@ impl Scene {
         })
     }
 }
+
+/// The machine, which is asked once.
+static MACHINE: LazyLock<String> = LazyLock::new(machine);
 
 /// What is named as the command on pages.
 const FROM_PYTHON: &str = "called from Python";

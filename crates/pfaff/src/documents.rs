@@ -19,8 +19,6 @@ mod verdicts;
 use serde::Serialize;
 use solvability::{Judgement, Verdict};
 
-pub use crate::questions::analyze::about::MomentAboutDocument;
-pub use crate::questions::analyze::frames::FrameDocument;
 pub use analysis::{
     AlongDocument, AlongReactionDocument, AnalysisDocument, AnswersDocument, ComponentDocument,
     ConfigurationDocument, ContinuationDocument, DataDocument, DependencyDocument,

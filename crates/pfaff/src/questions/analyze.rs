@@ -18,7 +18,7 @@ mod words;
 use model::System;
 use serde::Serialize;
 
-pub use options::{Along, Analyze};
+pub use options::{Along, Analyze, Permission};
 
 use crate::along_motion::{self, VerdictsAlongMotion};
 use crate::documents::{AnalysisDocument, MakeUniqueDocument};

@@ -10,8 +10,7 @@ use solvability::{
 
 use super::{ComponentDocument, ValueDocument};
 use crate::documents::{SensitivityDocument, VerdictDocument};
-use crate::questions::analyze::about::MomentAboutDocument;
-use crate::questions::analyze::frames::FrameDocument;
+use crate::questions::analyze::{about, frames};
 
 /// The verdict on a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -62,10 +61,10 @@ pub struct ReactionDocument {
     pub free_directions: Vec<FreeDirectionDocument>,
     /// Its verdicts in other frames, if requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub frames: Vec<FrameDocument>,
+    pub frames: Vec<frames::FrameDocument>,
     /// Verdicts on its moment about another point, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub moment: Option<MomentAboutDocument>,
+    pub moment: Option<about::MomentAboutDocument>,
     /// The nearest point (m) about which its moment is unique, if it is not about the place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moment_unique_about: Option<Vec<f64>>,

@@ -30,7 +30,7 @@ pub(super) fn of(
     let failure = |e: StudyError| of.refusal(e);
     let layout = configuration.mechanism.layout();
     // Names are checked first, because that is cheap.
-    let allowed = choice::allowed(&asked.allow, layout.rows())?;
+    let allowed = choice::allowed(&asked.allow.0, layout.rows())?;
     let wanted = asked.make_unique.iter();
     let wanted: Result<Vec<_>, _> = wanted.map(|name| configuration.reaction(name)).collect();
     let wanted = wanted.map_err(failure)?;

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use serde::Deserialize;
 
 /// Rank, redundancy, and the verdict of every reaction
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
@@ -44,7 +44,7 @@ pub struct Analyze {
     /// What may be deleted for --make-unique: sensible (no joint of several rows loses all of
     /// them), whole (joints and drives as a whole), rows (any), or rows:4,6,21 (these)
     #[cfg_attr(feature = "command", arg(long, value_name = "WHAT", default_value = SENSIBLE))]
-    pub allow: String,
+    pub allow: Permission,
     /// List at most N sets of rows that can be eliminated without a change of the motion
     #[cfg_attr(feature = "command", arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "100"))]
     pub eliminations: Option<usize>,
@@ -69,24 +69,25 @@ pub struct Analyze {
     pub choose: Vec<String>,
 }
 
-impl Default for Analyze {
+const SENSIBLE: &str = "sensible";
+
+/// What may be deleted, as `sensible` or `rows:4,6,21`.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub struct Permission(pub String);
+
+impl Default for Permission {
     fn default() -> Self {
-        Self {
-            at_time: 0.0,
-            drop: None,
-            combine: Vec::new(),
-            make_unique: Vec::new(),
-            allow: SENSIBLE.to_owned(),
-            eliminations: None,
-            frames: false,
-            about: None,
-            along: None,
-            choose: Vec::new(),
-        }
+        Self(SENSIBLE.to_owned())
     }
 }
 
-const SENSIBLE: &str = "sensible";
+impl From<&str> for Permission {
+    fn from(text: &str) -> Self {
+        Self(text.to_owned())
+    }
+}
 const STATED: &str = "stated";
 
 /// How far the motion is judged.
