@@ -10,6 +10,8 @@
 //! | [`question`], [`questions`] | what a question is, and all of them: options, answers, words |
 //! | [`mod@start`] | the scene that a question is asked about |
 //! | [`words`] | sentences and tables, laid out as text |
+//! | [`documents`], [`mod@page`] | the answers of an analysis, a run and samples as data; the page of a run |
+//! | [`view`], [`template`], [`mod@explain`] | the start as a picture; scenes to begin with; codes of errors |
 //! | [`prelude`] | the names that a program needs most often |
 //! | [`assembled`] | a scene with its mechanism |
 //! | [`study`] | its consistent start, its motion, its files |

@@ -1,6 +1,6 @@
 //! The names needed by a program that builds, analyses and moves a mechanism:
 //! `use pfaff::prelude::*;`. The other joints and forces are in [`joints`], the documents in
-//! [`report::documents`].
+//! [`crate::documents`].
 
 pub use dynamics::MotionOptions;
 pub use joints::{Direction, KnifeEdge, Revolute, Translational};

@@ -80,11 +80,11 @@ fn place<'v>(key: &str, options: &'v Value) -> (Option<String>, &'v Value) {
         return (None, schema);
     }
     let objects = own.as_object().into_iter().flatten();
-    let found = objects.filter_map(|(name, of)| {
+    let mut found = objects.filter_map(|(name, of)| {
         let schema = resolved(of, options)["properties"].get(key)?;
         Some((Some(name.clone()), schema))
     });
-    found.last().unwrap_or((None, &Value::Null))
+    found.next().unwrap_or((None, &Value::Null))
 }
 
 /// The schema that a reference stands for.
