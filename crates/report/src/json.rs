@@ -64,8 +64,8 @@ pub fn part_as_json(part: &impl Serialize) -> io::Result<String> {
 /// An object whose keys are names, in this order.
 ///
 /// ```
-/// use pfaff_report::documents::Named;
-/// let masses = Named(vec![("crank".to_owned(), 2.0), ("rod".to_owned(), 1.0)]);
+/// use pfaff_report::ByName;
+/// let masses = ByName(vec![("crank".to_owned(), 2.0), ("rod".to_owned(), 1.0)]);
 /// assert_eq!(masses["rod"], 1.0);
 /// assert_eq!(masses.get("slider"), None);
 /// assert_eq!(serde_json::to_string(&masses).unwrap(), r#"{"crank":2.0,"rod":1.0}"#);

@@ -3,7 +3,7 @@
 //! do not move with a body are given frame by frame.
 //!
 //! Its points are points of the space of the mechanism, in the axes of the frames of bodies; its
-//! [`Projection`] makes them points of the picture.
+//! `Projection` makes them points of the picture.
 
 mod point;
 #[cfg(test)]
