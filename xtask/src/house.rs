@@ -28,12 +28,19 @@ use self::table::Table;
 use self::types::Type;
 use crate::tree::root;
 
+// The limits are what was found when they were set, and only fall. Those of size are raised by a
+// change that adds an ability alone, in a commit of its own.
+
 /// Largest number of lines of code of all groups except tests and developers' tools.
-const TOTAL_MOST: usize = 58_000;
+const TOTAL_MOST: usize = 141_700;
 /// Largest number of lines of code of the product.
-const PRODUCT_MOST: usize = 50_000;
+const PRODUCT_MOST: usize = 106_300;
+/// Largest number of tokens of the product: longer lines save nothing.
+const TOKENS_MOST: usize = 1_006_000;
 /// Largest number of lines of code of `dynamics`.
-const DYNAMICS_MOST: usize = 5000;
+const DYNAMICS_MOST: usize = 11_250;
+/// Largest number of stateful types above the bounds.
+const STATEFUL_MOST: usize = 6;
 /// Largest number of modules in a circle.
 const CIRCLE_MOST: usize = 2;
 
@@ -318,11 +325,20 @@ fn limits(counted: &[Counted]) -> Table {
             PRODUCT_MOST,
         ),
         (
+            "tokens of the product",
+            sum(counted, &[Product]).tokens,
+            TOKENS_MOST,
+        ),
+        (
             "lines of `dynamics`",
             dynamics.map_or(0, |c| c.count.code),
             DYNAMICS_MOST,
         ),
-        ("stateful types above the bounds", stateful.count(), 0),
+        (
+            "stateful types above the bounds",
+            stateful.count(),
+            STATEFUL_MOST,
+        ),
         (
             "names of several types of one crate",
             names.clone().filter(|n| n.files.len() > 1).count(),

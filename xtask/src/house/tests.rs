@@ -84,10 +84,10 @@ fn a_limit_is_exceeded_by_one_line() {
         let rows = limits(&[counted]).rows;
         rows.iter().map(|r| r[3] == "exceeded").collect::<Vec<_>>()
     };
-    assert_eq!(verdict(DYNAMICS_MOST), [false; 7]);
+    assert_eq!(verdict(DYNAMICS_MOST), [false; 8]);
     assert_eq!(
         verdict(DYNAMICS_MOST + 1),
-        [false, false, true, false, false, false, false]
+        [false, false, false, true, false, false, false, false]
     );
 }
 

@@ -108,7 +108,7 @@ impl FromStr for Along {
         match text.parse() {
             _ if text == STATED => Ok(Self::Stated),
             Ok(time) => Ok(Self::To(time)),
-            Err(e) => Err(format!("`{text}`: {e}")),
+            Err(_) => Err(format!("`{text}` is no time, need one > 0 (s)")),
         }
     }
 }

@@ -8,8 +8,11 @@ use crate::words::Block;
 pub(super) fn of(document: &WorkPrecisionDocument, ending: &Ending) -> Vec<Block> {
     let mut blocks = Vec::new();
     for scene in &document.scenes {
-        let title = format!("{}: {}", scene.name, scene.title);
-        blocks.push(Block::sentence(title));
+        blocks.push(Block::sentence(if scene.title == scene.name {
+            scene.name.clone()
+        } else {
+            format!("{}: {}", scene.name, scene.title)
+        }));
         let reference = &scene.reference;
         let (limit, agreement) = (reference.motion_limit(), &reference.agreement);
         let known = format!("reference known to {limit:.0e}. {agreement}");
