@@ -4,9 +4,9 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use pfaff::ConfigurationAnalysis;
-use pfaff::RunOptions as Overrides;
+use pfaff::RunOptions;
+use pfaff::dynamics::OutputRequest;
 use pfaff::dynamics::plan::{Reactions, Rows};
-use pfaff::dynamics::{Method, OutputRequest};
 use pfaff::memory::{Budget, Bytes};
 use pfaff::model::Tolerance;
 use pfaff::scene::nearest;
@@ -14,48 +14,25 @@ use pyo3::prelude::*;
 
 use crate::fault::{Fault, wrong};
 
-/// Options of a run; what is `None` is that of the scene.
+/// Options of a run.
 #[derive(FromPyObject, Clone, Default)]
 #[pyo3(from_item_all)]
-pub(crate) struct RunOptions {
-    t_end: Option<f64>,
-    rtol: Option<f64>,
-    atol: Option<f64>,
-    max_step: Option<f64>,
-    max_steps: Option<u64>,
-    method: Option<String>,
-    threads: Option<usize>,
-    /// Rows to drop, from 1.
-    drop: Option<Vec<usize>>,
+pub(crate) struct RunKeywords {
+    /// Those that replace options of the scene, as JSON.
+    run: String,
+    pub(crate) common: Common,
     pub(crate) output_step: Option<f64>,
-    tolerance: Option<f64>,
-    angle_tolerance: Option<f64>,
     /// Names of joints and drives; `None` for all.
     reactions: Option<Vec<String>>,
-    max_memory: Option<Size>,
 }
 
-impl RunOptions {
-    pub(crate) fn overrides(&self) -> Result<Overrides, Fault> {
-        Ok(Overrides {
-            t_end: self.t_end,
-            rtol: self.rtol,
-            atol: self.atol,
-            max_step: self.max_step,
-            max_steps: self.max_steps,
-            method: self.method.as_deref().map(method).transpose()?,
-            drop: rows_from_zero(self.drop.as_deref())?,
-            threads: self.threads.map(threads).transpose()?,
-            ..Overrides::default()
+impl RunKeywords {
+    pub(crate) fn run(&self) -> Result<RunOptions, Fault> {
+        let run = RunOptions::read(&self.run)?;
+        Ok(RunOptions {
+            threads: self.common.threads()?,
+            ..run
         })
-    }
-
-    pub(crate) fn tolerance(&self) -> Tolerance {
-        tolerance(self.tolerance, self.angle_tolerance)
-    }
-
-    pub(crate) fn budget(&self) -> Result<Budget, Fault> {
-        budget(self.max_memory.as_ref())
     }
 
     pub(crate) fn wanted(&self) -> OutputRequest {
@@ -94,7 +71,10 @@ pub(crate) struct Common {
 
 impl Common {
     pub(crate) fn tolerance(&self) -> Tolerance {
-        tolerance(self.tolerance, self.angle_tolerance)
+        Tolerance {
+            length: self.tolerance,
+            angle: self.angle_tolerance,
+        }
     }
 
     pub(crate) fn budget(&self) -> Result<Budget, Fault> {
@@ -131,14 +111,6 @@ pub(crate) fn budget(limit: Option<&Size>) -> Result<Budget, Fault> {
     })
 }
 
-fn method(name: &str) -> Result<Method, Fault> {
-    let found = Method::ALL.iter().find(|method| method.name() == name);
-    found.copied().ok_or_else(|| {
-        let names: Vec<&str> = Method::ALL.iter().map(|method| method.name()).collect();
-        unknown("method", name, &names)
-    })
-}
-
 pub(crate) fn threads(threads: usize) -> Result<NonZeroUsize, Fault> {
     NonZeroUsize::new(threads).ok_or_else(|| wrong("threads is 0, need a number > 0".to_owned()))
 }
@@ -151,10 +123,6 @@ pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> Fault {
     wrong(format!(
         "there is no {what} `{name}`; there are: {known}{advice}"
     ))
-}
-
-pub(crate) fn tolerance(length: Option<f64>, angle: Option<f64>) -> Tolerance {
-    Tolerance { length, angle }
 }
 
 /// Rows from 0, from those of the caller, which are counted from 1.

@@ -26,13 +26,13 @@ use pfaff::study::EndedRun;
 use pfaff::template::Template;
 use pfaff::view::{Drawing, Form};
 use pfaff::work_precision::provenance::{date, machine};
-use pfaff::{AssembledScene, RunOptions as Overrides, Study, StudyError, source};
+use pfaff::{AssembledScene, RunOptions, Study, StudyError, source};
 use pyo3::prelude::*;
 
 use crate::fault::{Fault, wrong};
 use crate::functions::Functions;
 use crate::hearing::{Hearing, heard, heard_here};
-use crate::options::{Common, RunOptions, Size, budget, rows_from_zero, unknown};
+use crate::options::{Common, RunKeywords, Size, budget, rows_from_zero, unknown};
 use crate::run::{Column, Recorded, Run, by_rows};
 
 pub(crate) static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standard);
@@ -95,9 +95,9 @@ impl Source {
         drop: Option<Vec<usize>>,
     ) -> Result<Arc<JudgedStart>, Fault> {
         let start = self.start(tolerance, budget);
-        let with = Overrides {
+        let with = RunOptions {
             drop,
-            ..Overrides::default()
+            ..RunOptions::default()
         };
         Ok(match with.drop {
             None => start.judged(&Control::quiet())?,
@@ -109,10 +109,10 @@ impl Source {
     fn with_functions(
         &self,
         functions: Functions,
-        (options, overrides): (&RunOptions, &Overrides),
+        (options, overrides): (&RunKeywords, &RunOptions),
         hearing: &Arc<Hearing>,
     ) -> Result<Study, Fault> {
-        let mut assembled = self.assembled(options.tolerance(), options.budget()?)?;
+        let mut assembled = self.assembled(options.common.tolerance(), options.common.budget()?)?;
         if !functions.is_empty() {
             let mut scene = assembled.scene;
             functions.put_into(&mut scene.description, hearing)?;
@@ -138,11 +138,11 @@ impl Source {
             on_event,
             on_row,
         } = asked;
-        let overrides = options.overrides()?;
-        let budget = options.budget()?;
+        let overrides = options.run()?;
+        let budget = options.common.budget()?;
         let (judged, own);
         let study = if functions.is_empty() {
-            judged = self.judged((options.tolerance(), budget), overrides.drop.clone())?;
+            judged = self.judged((options.common.tolerance(), budget), overrides.drop.clone())?;
             judged.study()?
         } else {
             own = self.with_functions(functions, (&options, &overrides), hearing)?;
@@ -235,7 +235,7 @@ impl Source {
 
 /// A run that is asked for.
 struct RunAsked {
-    options: RunOptions,
+    options: RunKeywords,
     numbers_of_choice: bool,
     choices: Vec<String>,
     functions: Functions,
@@ -505,7 +505,7 @@ impl Scene {
     fn simulate(
         &self,
         py: Python<'_>,
-        options: RunOptions,
+        options: RunKeywords,
         numbers_of_choice: bool,
         choices: Vec<String>,
         on_event: Option<Py<PyAny>>,
@@ -528,8 +528,8 @@ impl Scene {
             // Ctrl-C is heard while it is assembled, too.
             let (own, options) = (Arc::clone(&own), asked.options.clone());
             heard(py, move |_| {
-                let within = (options.tolerance(), options.budget()?);
-                own.judged(within, options.overrides()?.drop)
+                let within = (options.common.tolerance(), options.common.budget()?);
+                own.judged(within, options.run()?.drop)
             })?;
             heard_here(py, |hearing| self.0.recorded(asked, hearing))?
         } else {
@@ -546,7 +546,7 @@ impl Scene {
         &self,
         py: Python<'_>,
         directory: PathBuf,
-        options: RunOptions,
+        options: RunKeywords,
         choices: Vec<String>,
         until: Option<f64>,
         drives: Vec<(String, Py<PyAny>)>,
@@ -556,13 +556,13 @@ impl Scene {
         let functions = Functions { drives, forces };
         let is_alone = functions.is_empty();
         let work = move |hearing: &Arc<Hearing>| {
-            let overrides = options.overrides()?;
+            let overrides = options.run()?;
             let mut study = own.with_functions(functions, (&options, &overrides), hearing)?;
             if let (Some(step), Some(motion)) = (options.output_step, &mut study.options) {
                 motion.output_step = step;
             }
             let of_run = study.memory(own.text.len()).map_err(|e| own.fault(e))?;
-            options.budget()?.allow(of_run, "this run")?;
+            options.common.budget()?.allow(of_run, "this run")?;
             study.choices = own.choices(&choices, &study)?;
             if hearing.ends() {
                 return Err(own.fault(StudyError::Interrupted));

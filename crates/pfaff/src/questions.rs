@@ -28,6 +28,7 @@ pub use work_precision::WorkPrecision;
 
 use crate::question::{AnyQuestion, Output, Question, Subject};
 use crate::refusal::Refusal;
+use crate::run_options::without_place;
 
 /// What is known of a question before it is asked.
 #[derive(Clone, Copy, Debug)]
@@ -136,6 +137,6 @@ impl Questions {
             )));
         }
         read_json(&format!("{{\"{name}\": {options}}}"))
-            .map_err(|e| Refusal::input(format!("the options of `{name}`: {e}")))
+            .map_err(|e| Refusal::input(format!("the options of `{name}`: {}", without_place(&e))))
     }
 }

@@ -3,8 +3,12 @@
 use std::num::NonZeroUsize;
 
 use dynamics::{Method, Stabilisation};
+use report::read_json;
+use scene::nearest;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
+
+use crate::refusal::Refusal;
 
 /// Options of the caller that replace those of the scene.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -64,6 +68,23 @@ pub struct RunOptions {
     pub threads: Option<NonZeroUsize>,
 }
 
+impl RunOptions {
+    /// Options from a JSON object.
+    ///
+    /// # Errors
+    /// Which of them is wrong.
+    pub fn read(text: &str) -> Result<Self, Refusal> {
+        read_json(text).map_err(|e| Refusal::input(without_place(&e).to_owned()))
+    }
+}
+
+/// An error of JSON without the place in a text that nobody has written.
+pub(crate) fn without_place(error: &str) -> &str {
+    error
+        .rsplit_once(" at line ")
+        .map_or(error, |(words, _)| words)
+}
+
 pub(crate) const NO_ROW: &str = "rows are counted from 1; there is no row 0";
 
 /// Rows from 0, from those of a user, who counts from 1.
@@ -105,7 +126,9 @@ fn named<'d, D: Deserializer<'d>, T: Copy>(
     let found = all.iter().copied().find(|value| name(*value) == text);
     found.map(Some).ok_or_else(|| {
         let names: Vec<&str> = all.iter().map(|value| name(*value)).collect();
-        D::Error::custom(format!("`{text}` is none of {}", names.join(", ")))
+        let near = nearest(&text, names.iter().copied());
+        let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+        D::Error::custom(format!("`{text}` is none of {}{near}", names.join(", ")))
     })
 }
 

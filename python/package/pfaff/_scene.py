@@ -306,7 +306,7 @@ class Scene(Questions):
             arguments.function("on_event", on_event, "an event")
         told = None if on_event is None else lambda text: on_event(Event(**json.loads(text)))
         laws, pushes = of_drives(drives), of_bodies(forces)
-        of = self._of.simulate(options, kept, choices, told, on_row, laws, pushes)
+        of = self._of.simulate(_native(options), kept, choices, told, on_row, laws, pushes)
         again = {key: x for key, x in options.items() if key != "reactions"}
         again = {**again, "choices": choices, "drives": drives, "forces": forces}
         run = Run(of, self, again, isinstance(choose, (str, Mapping)) and not kept)
@@ -333,7 +333,7 @@ class Scene(Questions):
         laws, pushes = of_drives(own.pop("drives", None)), of_bodies(own.pop("forces", None))
         choices = own.pop("choices", [])
         place = arguments.path("directory", directory)
-        summary = self._of.simulate_into(place, _options(**own), choices, until, laws, pushes)
+        summary = self._of.simulate_into(place, _native(_options(**own)), choices, until, laws, pushes)
         document: dict[str, Any] = json.loads(summary)
         return document
 
@@ -444,10 +444,10 @@ def _between(bodies: Bodies | None) -> dict[str, Any]:
 
 
 _CHECKS: dict[str, Callable[[str, Any], Any]] = {
-    "t_end": arguments.number,
-    "rtol": arguments.number,
-    "atol": arguments.number,
-    "max_step": arguments.number,
+    "t_end": arguments.finite,
+    "rtol": arguments.finite,
+    "atol": arguments.finite,
+    "max_step": arguments.finite,
     "max_steps": arguments.count,
     "method": arguments.text,
     "threads": arguments.count,
@@ -465,6 +465,18 @@ def _options(**options: Any) -> dict[str, Any]:
     return {
         name: arguments.maybe(check, name, options.get(name)) for name, check in _CHECKS.items()
     }
+
+
+_OF_RUN = ("t_end", "rtol", "atol", "max_step", "max_steps", "method", "drop")
+"""Those that replace options of the scene."""
+
+
+def _native(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options of a run as the library takes them."""
+    run = json.dumps({name: options[name] for name in _OF_RUN})
+    common = Common(*(options.get(name) for name in Common._fields))._asdict()
+    rest = {name: options[name] for name in ("output_step", "reactions")}
+    return {"run": run, "common": common, **rest}
 
 
 def _known(options: Mapping[str, Any]) -> None:
