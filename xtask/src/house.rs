@@ -1,5 +1,5 @@
 //! `cargo xtask house` measures the project: lines of code, large types, circular dependencies of
-//! modules, numeric constants, and the limits on them. With `--check` it fails if a limit is
+//! modules, files of data, numeric constants, and the limits on them. With `--check` it fails if a limit is
 //! exceeded.
 //!
 //! The rules are documented where they are applied: [`lines`] defines a line of code, [`types`] a
@@ -9,6 +9,7 @@
 
 mod circles;
 mod constants;
+mod data;
 mod lines;
 mod modules;
 mod names;
@@ -70,6 +71,7 @@ pub(crate) fn tell(is_json: bool, check: bool) -> Result<String, String> {
             types_table("plain data", &counted, false),
             circles_table(&counted),
             names_table(&counted),
+            data_table(&crates),
             constants_table(&crates),
             limits,
         ]
@@ -245,6 +247,28 @@ fn names_table(counted: &[Counted]) -> Table {
             "of types of the product: what several types of a crate are called, and what is no noun"
                 .into(),
         columns: &["crate", "name", "types", "noun", "files"],
+        rows: rows.collect(),
+    }
+}
+
+/// Files of data that the product includes.
+fn data_table(crates: &[Crate]) -> Table {
+    let product = crates.iter().filter(|home| home.group == Group::Product);
+    let rows = product.flat_map(|home| {
+        let files = data::files(home, &root()).into_iter();
+        files.map(|file| {
+            vec![
+                json!(home.name),
+                json!(file.path),
+                json!(file.bytes),
+                json!(file.lines),
+            ]
+        })
+    });
+    Table {
+        name: "data",
+        rule: "files that the product includes when it is compiled, without examples".into(),
+        columns: &["crate", "file", "bytes", "lines"],
         rows: rows.collect(),
     }
 }
