@@ -1,6 +1,6 @@
 //! `cargo xtask house` measures the project: lines of code, large types, circular dependencies of
-//! modules, files of data, numeric constants, and the limits on them. With `--check` it fails if a limit is
-//! exceeded.
+//! modules, files of data, numeric constants, and the limits on them. With `--check` it fails if a
+//! limit is exceeded.
 //!
 //! The rules are documented where they are applied: [`lines`] defines a line of code, [`types`] a
 //! stateful type, [`circles`] the uses between modules. All files are read with the tokenizer and
