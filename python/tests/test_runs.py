@@ -345,6 +345,11 @@ def test_ctrl_c_ends_other_long_work(call: Callable[[pfaff.Scene], object]) -> N
     with pytest.raises(KeyboardInterrupt):
         call(robot)
     assert time.monotonic() - begun < 5.0
+    # Nothing goes on computing: the processors rest soon.
+    time.sleep(1.0)
+    used = time.process_time()
+    time.sleep(0.5)
+    assert time.process_time() - used < 0.25
 
 
 def test_samples_of_a_beam() -> None:

@@ -1,7 +1,7 @@
 //! The text of a scene, and what is made of it when it is first needed: the assembled scene, and
 //! its judged start.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use crate::documents::AnalysisDocument;
 use model::{Mechanism, Registry, System, Tolerance};
@@ -29,7 +29,8 @@ pub struct Start<'r> {
     /// What its computations may take of the memory.
     pub budget: Budget,
     judged: OnceLock<Arc<JudgedStart>>,
-    verdicts: OnceLock<KeptAnalysis>,
+    /// The verdicts that were found last, with their time (s).
+    verdicts: Mutex<Option<(f64, KeptAnalysis)>>,
 }
 
 impl<'r> Start<'r> {
@@ -43,7 +44,7 @@ impl<'r> Start<'r> {
             registry,
             budget,
             judged: OnceLock::new(),
-            verdicts: OnceLock::new(),
+            verdicts: Mutex::default(),
         }
     }
 
@@ -52,7 +53,7 @@ impl<'r> Start<'r> {
     pub fn knowing(self, other: &Self) -> Self {
         Self {
             judged: other.judged.clone(),
-            verdicts: other.verdicts.clone(),
+            verdicts: Mutex::new(other.verdicts().clone()),
             ..self
         }
     }
@@ -146,29 +147,36 @@ impl<'r> Start<'r> {
         Ok(Arc::clone(self.judged.get_or_init(|| judged)))
     }
 
-    /// The verdicts at [`Self::judged`], found once; `progress` is called with the number of joints
-    /// that have been judged.
+    /// The verdicts on [`Self::judged`] at a time of its motion (s). The last ones stay known;
+    /// `progress` is called with the number of joints that have been judged.
     ///
     /// # Errors
-    /// C cannot be analysed.
+    /// The motion does not reach that time, or C cannot be analysed there.
     pub fn configuration<'j>(
         &self,
         judged: &'j JudgedStart,
+        time: f64,
+        control: &Control<'_>,
         progress: impl Fn(usize) + Sync,
     ) -> Result<ConfigurationAnalysis<'j>, StudyError> {
-        let known = match judged {
-            JudgedStart::Stands(stands) => &stands.kept,
-            JudgedStart::Moves(study) => match self.verdicts.get() {
-                Some(known) => known,
-                None => {
-                    let found = study.analyse_with_progress(0.0, None, progress)?;
-                    self.verdicts.get_or_init(|| found.kept());
-                    return Ok(found);
-                }
-            },
-        };
         let (scene, mechanism) = judged.parts();
-        Ok(ConfigurationAnalysis::again(scene, mechanism, known))
+        let again = |kept: &KeptAnalysis| ConfigurationAnalysis::again(scene, mechanism, kept);
+        let study = match judged {
+            JudgedStart::Stands(stands) => return Ok(again(&stands.kept)),
+            JudgedStart::Moves(study) => study,
+        };
+        if let Some((of, kept)) = &*self.verdicts()
+            && *of == time
+        {
+            return Ok(again(kept));
+        }
+        let found = study.analyse_until(time, None, &control.stop, progress)?;
+        *self.verdicts() = Some((time, found.kept()));
+        Ok(found)
+    }
+
+    fn verdicts(&self) -> MutexGuard<'_, Option<(f64, KeptAnalysis)>> {
+        self.verdicts.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The study with the options of the scene.
@@ -218,23 +226,6 @@ impl JudgedStart {
         match self {
             Self::Moves(study) => Ok(study),
             Self::Stands(stands) => Err(stands.refusal.clone()),
-        }
-    }
-
-    /// Adds what speaks against a motion from the start to its document.
-    ///
-    /// # Errors
-    /// As [`Study::add_warnings`].
-    pub fn add_warnings(&self, document: &mut AnalysisDocument) -> Result<(), StudyError> {
-        match self {
-            Self::Moves(study) if document.configuration.time == 0.0 => {
-                study.add_warnings(document)
-            }
-            Self::Moves(_) => Ok(()),
-            Self::Stands(stands) => {
-                document.warnings.insert(0, stands.warning.clone());
-                Ok(())
-            }
         }
     }
 }

@@ -154,10 +154,11 @@ impl Study {
         t: f64,
         drop: Option<&[usize]>,
     ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
-        self.analyse_with_progress(t, drop, |_| ())
+        self.analyse_until(t, drop, &|| false, |_| ())
     }
 
-    /// Like [`Self::analyse`]; `stop` is asked at each evaluation of the run that reaches the time.
+    /// Like [`Self::analyse`]; `stop` is asked at each evaluation of the run that reaches the time,
+    /// and `progress` is called with the number of joints analysed so far.
     ///
     /// # Errors
     /// As [`Study::analyse`], and [`StudyError::Interrupted`]: `stop` returned true.
@@ -166,21 +167,9 @@ impl Study {
         t: f64,
         drop: Option<&[usize]>,
         stop: &Stop<'_>,
-    ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
-        self.analyse_state(t, self.state_until(t, stop)?, drop, |_| ())
-    }
-
-    /// Like [`Self::analyse`]; calls `progress` with the number of joints analysed so far.
-    ///
-    /// # Errors
-    /// As [`Study::analyse`].
-    pub fn analyse_with_progress(
-        &self,
-        t: f64,
-        drop: Option<&[usize]>,
         progress: impl Fn(usize) + Sync,
     ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
-        self.analyse_state(t, self.state_at(t)?, drop, progress)
+        self.analyse_state(t, self.state_until(t, stop)?, drop, progress)
     }
 
     /// Analyses the state of the motion at t.

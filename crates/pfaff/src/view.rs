@@ -66,7 +66,7 @@ impl Drawing {
         control: &Control<'_>,
     ) -> Result<Self, Refusal> {
         let judged = of.judged(control)?;
-        let start = of.configuration(&judged, |_| ());
+        let start = of.configuration(&judged, 0.0, control, |_| ());
         let start = start.map_err(|e| of.refusal(e))?;
         let document = document_of(&start).map_err(|e| of.refusal(e))?;
         let (mut pixels, mut boxes) = (None, String::new());

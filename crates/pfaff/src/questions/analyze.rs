@@ -23,7 +23,7 @@ pub use options::{Along, Analyze, Permission};
 use crate::along_motion::{self, VerdictsAlongMotion};
 use crate::documents::{AnalysisDocument, MakeUniqueDocument};
 use crate::error::StudyError;
-use crate::question::{Answer, Control, Ending, Progress, Question};
+use crate::question::{Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Progress, Question};
 use crate::refusal::Refusal;
 use crate::run_options::RunOptions;
 use crate::start::{JudgedStart, Start};
@@ -63,7 +63,7 @@ impl Question for Analyze {
             // A mechanism that cannot move can still be judged at the start.
             JudgedStart::Stands(stands) if self.at_time == 0.0 && self.along.is_none() => {
                 let start = of
-                    .configuration(judged, |_| ())
+                    .configuration(judged, 0.0, control, |_| ())
                     .map_err(|e| of.refusal(e))?;
                 let mut document = document::of(self, of, &start)?;
                 document.warnings.insert(0, stands.warning.clone());
@@ -89,11 +89,11 @@ impl Analyze {
         let drop = self.drop.as_deref();
         let of_configuration = || {
             let progress = |done| (control.progress)(Progress::Count("joints", done, joints));
-            let found = match (self.at_time, drop) {
-                (0.0, None) => of.configuration(judged, progress),
-                (time, drop) => study.analyse_with_progress(time, drop, progress),
+            let found = match drop {
+                None => of.configuration(judged, self.at_time, control, progress),
+                drop => study.analyse_until(self.at_time, drop, &control.stop, progress),
             };
-            let configuration = found.map_err(|e| of.refusal(e))?;
+            let configuration = found.map_err(|e| refused(of, e))?;
             let document = document::of(self, of, &configuration)?;
             Ok::<_, Refusal>((configuration, document))
         };
@@ -135,14 +135,22 @@ fn judge(
         let message = format!("--along goes to {end}, need a time > 0");
         return Err(Refusal::input(message));
     }
-    let found = study.verdicts_along_motion(t_end, |progress| {
+    let found = study.verdicts_along_motion_until(t_end, &control.stop, |progress| {
         let (what, t) = match progress {
             along_motion::MotionProgress::Moving(t) => ("moving", t),
             along_motion::MotionProgress::Judging(t) => ("judging", t),
         };
         (control.progress)(Progress::Motion(what, t, end));
     });
-    found.map_err(|e| of.refusal(e))
+    found.map_err(|e| refused(of, e))
+}
+
+/// Why there is no analysis: nothing is written before all of it is there.
+fn refused(of: &Start<'_>, error: StudyError) -> Refusal {
+    match error {
+        StudyError::Interrupted => Refusal::stopped(NOTHING_WRITTEN.to_owned()).coded(INTERRUPTED),
+        error => of.refusal(error),
+    }
 }
 
 /// An analysed configuration.

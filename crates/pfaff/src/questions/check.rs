@@ -35,7 +35,7 @@ impl Question for Check {
         let judged = of.judged(control)?;
         let answered = match judged.as_ref() {
             JudgedStart::Moves(study) => study.check_drives().and_then(|()| {
-                let start = of.configuration(&judged, |_| ())?;
+                let start = of.configuration(&judged, 0.0, control, |_| ())?;
                 let prepared = &study.prepared;
                 let answer = CheckAnswer::new(judged.parts(), &prepared.assembly.correction);
                 let mut answer = answer.moving(&start.freedoms()?, &prepared.mechanism);
