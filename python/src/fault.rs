@@ -79,24 +79,24 @@ pub(crate) fn exception(py: Python<'_>, refusal: &Refusal) -> PyErr {
 /// `at_time=2`.
 fn with_keywords(text: &str) -> String {
     let mut words = text.split("--");
-    let mut told = words.next().unwrap_or_default().to_owned();
+    let mut out = words.next().unwrap_or_default().to_owned();
     for rest in words {
         let end = rest.find(|c: char| !(c.is_ascii_lowercase() || c == '-'));
         let (name, rest) = rest.split_at(end.unwrap_or(rest.len()));
         let is_option = name.starts_with(|c: char| c.is_ascii_lowercase())
-            && told.ends_with([' ', '`', '"', '\n']);
-        let is_quoted = told.ends_with('`');
+            && out.ends_with([' ', '`', '"', '\n']);
+        let is_quoted = out.ends_with('`');
         if is_option {
-            told.push_str(&name.replace('-', "_"));
+            out.push_str(&name.replace('-', "_"));
         } else {
-            told.extend(["--", name]);
+            out.extend(["--", name]);
         }
         match rest.strip_prefix(' ') {
-            Some(value) if is_option && is_quoted => told.extend(["=", value]),
-            _ => told.push_str(rest),
+            Some(value) if is_option && is_quoted => out.extend(["=", value]),
+            _ => out.push_str(rest),
         }
     }
-    told
+    out
 }
 
 /// The exception of a panic.

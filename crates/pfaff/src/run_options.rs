@@ -78,7 +78,7 @@ impl RunOptions {
     }
 }
 
-/// An error of JSON without the place in a text that nobody has written.
+/// An error of JSON without its place: the caller has not written the text.
 pub(crate) fn without_place(error: &str) -> &str {
     error
         .rsplit_once(" at line ")

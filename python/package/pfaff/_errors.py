@@ -107,7 +107,7 @@ def wrong_type(name: str, given: object, needed: str) -> ArgumentError:
 
 
 def unknown(what: str, name: str, known: Iterable[str]) -> InputError:
-    """The exception for a name that is none, with all names and the nearest one."""
+    """The exception for an unknown name, with all names and the nearest one."""
     names = list(known)
     near = nearest(str(name), names)
     advice = f"; did you mean `{near}`?" if near else ""

@@ -96,7 +96,7 @@ class Samples:
 
 
 def _values(column: tuple[str, ...]) -> Values:
-    """Numbers, or words if one of them is none."""
+    """Numbers, or words if a cell is not a number."""
     try:
         return np.array([float(cell) for cell in column], dtype=np.float64)
     except ValueError:

@@ -97,7 +97,7 @@ fn resolved<'v>(schema: &'v Value, options: &'v Value) -> &'v Value {
 /// The type of a schema, and whether it may be `null`.
 ///
 /// # Panics
-/// The type is none of those of options: then the generator has to learn it.
+/// The type is unknown: then the generator has to learn it.
 fn kind(schema: &Value, options: &Value) -> (Kind, bool) {
     let schema = resolved(schema, options);
     if let Some(any) = schema["anyOf"].as_array() {
