@@ -1,6 +1,7 @@
 //! Loop closures of a URDF as a file of their own, as in the collection of parallel robots of
 //! Gepetto: pairs of links whose frames coincide, and joints with more freedoms than URDF knows.
-//! Of YAML it reads keys with texts and lists, in brackets or with dashes.
+
+mod yaml;
 
 use std::collections::HashMap;
 
@@ -8,37 +9,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 use scene::SourceText;
 
 use crate::findings::{Fault, Findings};
-use crate::limits::DEEPEST_LIST;
 use crate::mechanism::{Joint, JointKind, Model};
-
-/// A value of the file with its place.
-#[derive(Clone, Debug, PartialEq)]
-enum Node {
-    Text(String, usize),
-    List(Vec<Node>),
-}
-
-impl Node {
-    /// The texts of a list.
-    fn texts(&self) -> Option<Vec<(&str, usize)>> {
-        let Self::List(items) = self else { return None };
-        let text = |item: &'_ Node| match item {
-            Self::Text(text, _) => Some(text.len()),
-            Self::List(_) => None,
-        };
-        if items.iter().any(|item| text(item).is_none()) {
-            return None;
-        }
-        let own = items.iter().filter_map(|item| match item {
-            Self::Text(text, at) => Some((text.as_str(), *at)),
-            Self::List(_) => None,
-        });
-        Some(own.collect())
-    }
-}
-
-/// A place and what is wrong there.
-type Wrong = (usize, String);
+use yaml::{Key, Node, Wrong, keys};
 
 /// Adds the closures to a model.
 pub(crate) fn read(
@@ -61,16 +33,12 @@ fn apply(
     findings: &mut Findings,
 ) -> Result<(), Wrong> {
     check_names(keys, text, findings)?;
-    let find = |key: &str| -> Result<Option<(usize, Node)>, Wrong> {
-        let found = keys.iter().find(|of| of.name == key);
-        found.map(|of| Ok((of.at, of.value()?))).transpose()
-    };
-    let of_types = find("type")?;
-    let types = texts("type", of_types.as_ref())?;
-    let of_loops = find("closed_loop")?;
-    let start = of_loops.as_ref().map_or(0, |(at, _)| *at);
-    let has_joints = keys.iter().any(|key| key.name == "joint_name");
-    let pairs = pairs(of_loops.as_ref(), has_joints)?;
+    let find = |name: &str| keys.iter().find(|key| key.name == name);
+    let of_types = find("type");
+    let types = texts(of_types)?;
+    let of_loops = find("closed_loop");
+    let start = of_loops.map_or(0, |key| key.at);
+    let pairs = pairs(of_loops, find("joint_name").is_some())?;
     if of_types.is_none() && !pairs.is_empty() {
         let message = "key `type` is missing: a list with `3d` or `6d` for each pair";
         return Err((start, message.to_owned()));
@@ -86,9 +54,8 @@ fn apply(
     for (k, (pair, kind)) in pairs.iter().zip(types).enumerate() {
         model.joints.push(closure(k, pair, kind, links)?);
     }
-    let (of_names, of_kinds) = (find("joint_name")?, find("joint_type")?);
-    let names = texts("joint_name", of_names.as_ref())?;
-    let kinds = texts("joint_type", of_kinds.as_ref())?;
+    let names = texts(find("joint_name"))?;
+    let kinds = texts(find("joint_type"))?;
     if names.len() != kinds.len() {
         let at = names.first().map_or(0, |(_, at)| *at);
         return Err((
@@ -143,12 +110,12 @@ fn check_names(keys: &[Key], text: &SourceText, findings: &mut Findings) -> Resu
 type Pair<'n> = [(&'n str, usize); 2];
 
 /// The pairs of links of `closed_loop`, which may be missing if the file has joints.
-fn pairs<'n>(loops: Option<&'n (usize, Node)>, has_joints: bool) -> Result<Vec<Pair<'n>>, Wrong> {
-    let (start, pairs) = match loops {
-        Some((at, Node::List(pairs))) => (*at, pairs),
-        Some((at, Node::Text(..))) => {
+fn pairs(loops: Option<&Key>, has_joints: bool) -> Result<Vec<Pair<'_>>, Wrong> {
+    let pairs = match loops.map(|key| (key.at, &key.value)) {
+        Some((_, Node::List(pairs, _))) => pairs,
+        Some((at, _)) => {
             let message = "`closed_loop` has to be a list of pairs: write `[[link, link]]`";
-            return Err((*at, message.to_owned()));
+            return Err((at, message.to_owned()));
         }
         None if has_joints => return Ok(Vec::new()),
         None => {
@@ -156,12 +123,13 @@ fn pairs<'n>(loops: Option<&'n (usize, Node)>, has_joints: bool) -> Result<Vec<P
             return Err((0, message.to_owned()));
         }
     };
-    let names = |(k, pair): (usize, &'n Node)| {
-        let names = pair.texts().and_then(|names| names.try_into().ok());
+    let names = |(k, pair)| {
+        let names = Node::texts(pair).and_then(|names| names.try_into().ok());
         names.ok_or_else(|| {
             let (what, at) = match pair {
                 Node::Text(text, at) => (format!("`{text}`"), *at),
-                Node::List(items) => (format!("a list of {}", items.len()), start),
+                Node::List(items, at) => (format!("a list of {}", items.len()), *at),
+                Node::Keys(at) => ("a list of keys".to_owned(), *at),
             };
             let message = format!("entry {} is {what}, not a pair `[link, link]`", k + 1);
             (at, message)
@@ -239,13 +207,13 @@ fn change_kind(model: &mut Model, joint: usize, (kind, at): (&str, usize)) -> Re
 }
 
 /// The texts of a list.
-fn texts<'n>(key: &str, value: Option<&'n (usize, Node)>) -> Result<Vec<(&'n str, usize)>, Wrong> {
-    let Some((at, node)) = value else {
+fn texts(key: Option<&Key>) -> Result<Vec<(&str, usize)>, Wrong> {
+    let Some(Key { name, value, .. }) = key else {
         return Ok(Vec::new());
     };
-    node.texts().ok_or_else(|| match node {
-        Node::Text(text, at) => (*at, format!("`{key}` has to be a list: write `[{text}]`")),
-        Node::List(_) => (*at, format!("`{key}` has to be a list of texts")),
+    value.texts().ok_or_else(|| match value {
+        Node::Text(text, at) => (*at, format!("`{name}` has to be a list: write `[{text}]`")),
+        Node::List(_, at) | Node::Keys(at) => (*at, format!("`{name}` has to be a list of texts")),
     })
 }
 
@@ -258,206 +226,3 @@ fn no_type(kind: &str) -> String {
 
 /// The keys that are read.
 const KEYS: [&str; 4] = ["closed_loop", "type", "joint_name", "joint_type"];
-
-/// A key of the first level with its place, and the signs of its value with their places.
-struct Key {
-    name: String,
-    at: usize,
-    signs: Vec<(char, usize)>,
-}
-
-impl Key {
-    fn value(&self) -> Result<Node, Wrong> {
-        value(&self.signs, self.at)
-    }
-}
-
-/// The keys of the first level; their values are taken apart when they are asked for.
-fn keys(text: &str) -> Result<Vec<Key>, Wrong> {
-    let mut out: Vec<Key> = Vec::new();
-    let mut at = 0;
-    for line in text.split_inclusive('\n') {
-        let kept = uncommented(line);
-        let starts = kept
-            .chars()
-            .next()
-            .is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
-        let mut from = 0;
-        if starts && let Some((key, _)) = kept.split_once(':') {
-            out.push(Key {
-                name: key.trim().to_owned(),
-                at,
-                signs: Vec::new(),
-            });
-            from = key.len() + 1;
-        } else if starts && !kept.trim().is_empty() {
-            return Err((at, "expected `key:`".to_owned()));
-        }
-        if let Some(Key { signs, .. }) = out.last_mut() {
-            let own = kept[from..].char_indices();
-            signs.extend(own.map(|(k, c)| (c, at + from + k)));
-            signs.push(('\n', at + kept.len()));
-        } else if !kept.trim().is_empty() && kept.trim() != "---" {
-            return Err((at, "expected `key:`".to_owned()));
-        }
-        at += line.len();
-    }
-    Ok(out)
-}
-
-/// A line without its comment.
-fn uncommented(line: &str) -> &str {
-    let line = line.trim_end_matches(['\n', '\r']);
-    let (mut quote, mut before) = (None, ' ');
-    for (at, c) in line.char_indices() {
-        match quote {
-            Some(open) if c == open => quote = None,
-            Some(_) => {}
-            None if c == '\'' || c == '"' => quote = Some(c),
-            None if c == '#' && before.is_whitespace() => return &line[..at],
-            None => {}
-        }
-        before = c;
-    }
-    line
-}
-
-fn value(signs: &[(char, usize)], at: usize) -> Result<Node, Wrong> {
-    let first = signs.iter().position(|(c, _)| !c.is_whitespace());
-    let Some(first) = first else {
-        return Ok(Node::Text(String::new(), at));
-    };
-    let signs = &signs[first..];
-    if signs[0].0 == '-' && signs.get(1).is_some_and(|(c, _)| c.is_whitespace()) {
-        return dashes(signs, at);
-    }
-    let (node, used) = flow(signs, 0)?;
-    let rest = signs[used..].iter().find(|(c, _)| !c.is_whitespace());
-    match rest {
-        Some((c, at)) => Err((*at, format!("unexpected `{c}`"))),
-        None => Ok(node),
-    }
-}
-
-/// A list with a dash in front of each item.
-fn dashes(signs: &[(char, usize)], at: usize) -> Result<Node, Wrong> {
-    let mut items = Vec::new();
-    let mut lines: Vec<Vec<(char, usize)>> = Vec::new();
-    for line in signs.split(|(c, _)| *c == '\n') {
-        let first = line.iter().position(|(c, _)| !c.is_whitespace());
-        let Some(first) = first else { continue };
-        let is_item =
-            line[first].0 == '-' && line.get(first + 1).is_none_or(|(c, _)| c.is_whitespace());
-        match lines.last_mut() {
-            _ if is_item => lines.push(line[first + 1..].to_vec()),
-            Some(last) => {
-                last.push((' ', line[first].1));
-                last.extend(&line[first..]);
-            }
-            None => return Err((at, "expected `-`".to_owned())),
-        }
-    }
-    for line in &lines {
-        let first = line.iter().position(|(c, _)| !c.is_whitespace());
-        let Some(first) = first else {
-            return Err((at, "an item without a value".to_owned()));
-        };
-        let (node, used) = flow(&line[first..], 0)?;
-        if let Some((c, at)) = line[first + used..]
-            .iter()
-            .find(|(c, _)| !c.is_whitespace())
-        {
-            return Err((*at, format!("unexpected `{c}`")));
-        }
-        items.push(node);
-    }
-    Ok(Node::List(items))
-}
-
-/// A text or a list in brackets; and how many signs it takes.
-fn flow(signs: &[(char, usize)], depth: usize) -> Result<(Node, usize), Wrong> {
-    let (first, at) = signs[0];
-    match first {
-        '[' if depth < DEEPEST_LIST => {
-            let (mut items, mut k) = (Vec::new(), 1);
-            loop {
-                while signs
-                    .get(k)
-                    .is_some_and(|(c, _)| c.is_whitespace() || *c == ',')
-                {
-                    k += 1;
-                }
-                match signs.get(k) {
-                    None => return Err((at, "a list without its end `]`".to_owned())),
-                    Some((']', _)) => return Ok((Node::List(items), k + 1)),
-                    Some(_) => {
-                        let (node, used) = flow(&signs[k..], depth + 1)?;
-                        items.push(node);
-                        k += used;
-                    }
-                }
-            }
-        }
-        '[' => Err((at, "lists within too many others".to_owned())),
-        '\'' | '"' => {
-            let end = signs[1..].iter().position(|(c, _)| *c == first);
-            let end = end.ok_or_else(|| (at, "a text without its end".to_owned()))?;
-            let text = signs[1..=end].iter().map(|(c, _)| c).collect();
-            Ok((Node::Text(text, at), end + 2))
-        }
-        '{' | '}' | ']' | '&' | '*' | '!' | '|' | '>' | '%' | '@' | '`' => {
-            Err((at, format!("`{first}` is not read here")))
-        }
-        _ => {
-            let end = signs
-                .iter()
-                .position(|(c, _)| matches!(c, ',' | ']' | '[' | '\n'));
-            let end = end.unwrap_or(signs.len());
-            let text: String = signs[..end].iter().map(|(c, _)| c).collect();
-            Ok((Node::Text(text.trim().to_owned(), at), end.max(1)))
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lists_in_brackets_and_with_dashes_are_the_same() {
-        let brackets = "# loops\npairs:\n  [\n    [\"a\", 'b c'], # one\n    [d, e],\n  ]\n";
-        let dashes = "---\npairs:\n  - [a, 'b c']\n  - [d,\n     e]\n";
-        let plain = |text: &str| -> Vec<Vec<String>> {
-            let keys = keys(text).expect("readable");
-            let value = keys[0].value().expect("readable");
-            let Node::List(pairs) = &value else {
-                panic!("{value:?}")
-            };
-            let texts = |pair: &Node| {
-                pair.texts()
-                    .expect("texts")
-                    .iter()
-                    .map(|(t, _)| (*t).to_owned())
-                    .collect()
-            };
-            pairs.iter().map(texts).collect()
-        };
-        assert_eq!(plain(brackets), [["a", "b c"], ["d", "e"]]);
-        assert_eq!(plain(dashes), plain(brackets));
-        for wrong in [
-            "a",
-            "a: [",
-            "a: 'x",
-            "a: {}",
-            "a: [x] y",
-            "- a",
-            "a:\n  - - x: [",
-        ] {
-            let found = keys(wrong).and_then(|keys| {
-                let values = keys.iter().map(Key::value);
-                values.collect::<Result<Vec<Node>, Wrong>>()
-            });
-            assert!(found.is_err(), "{wrong}");
-        }
-    }
-}
