@@ -222,8 +222,8 @@ impl Data<'_> {
         }
         gradient.fill(0.0);
         match (level.of, level.a) {
-            (ConstraintLevel::Position, _) => self.add_phi(s, z, 1.0, gradient),
-            (ConstraintLevel::Velocity, _) => self.add_power(s, z, level.v, 1.0, gradient),
+            (ConstraintLevel::Position, _) => self.slopes(s).add_phi(z, 1.0, gradient),
+            (ConstraintLevel::Velocity, _) => self.slopes(s).add_power(z, level.v, 1.0, gradient),
             (ConstraintLevel::Acceleration, None) => return f64::INFINITY,
             (ConstraintLevel::Acceleration, Some(a)) => {
                 let [none, still] = [vec![0.0; z.len()], vec![0.0; a.len()]];

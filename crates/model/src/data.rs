@@ -6,6 +6,7 @@
 
 mod displaced;
 mod gradients;
+mod slopes;
 
 use std::ops::Range;
 
@@ -14,13 +15,13 @@ use joints::spec::DatumShape;
 use crate::element::PlacedConstraint;
 use crate::mechanism::Mechanism;
 use crate::rounding::ROUNDING;
-use crate::rows::RowRanges;
 use crate::size::size_of;
 use crate::space::norm;
 use crate::system::Scratch;
 use crate::tolerance::Tolerance;
 
 pub use gradients::DataGradients;
+pub use slopes::DataSlopes;
 
 /// A point, a direction or a single number of a constraint, whose components change together.
 #[derive(Clone, Debug, PartialEq)]
@@ -232,53 +233,6 @@ impl<'m> Data<'m> {
         blocks
     }
 
-    /// Adds the gradient of `λᵀ·C·v` with respect to all numbers of the constraints, times
-    /// `factor`, to `out`; `lambda` has m + h values, `v` n_v. Needs the poses of the scratch.
-    pub fn add_power(self, s: &Scratch, lambda: &[f64], v: &[f64], factor: f64, out: &mut [f64]) {
-        let mut rates = Vec::new();
-        self.add((lambda, RowRanges::clone), factor, out, |c, lambda, own| {
-            c.site.own_rates(v, &mut rates);
-            c.slopes_of_c(&s.slots).power(lambda, &rates, own);
-        });
-    }
-
-    /// Adds the gradient of `λᵀ·Φ` with respect to all numbers of the constraints, times `factor`,
-    /// to `out`; `lambda` has at least m values.
-    pub fn add_phi(self, s: &Scratch, lambda: &[f64], factor: f64, out: &mut [f64]) {
-        let of_phi = |rows: &RowRanges| RowRanges {
-            holonomic: rows.holonomic.clone(),
-            nonholonomic: 0..0,
-        };
-        self.add((lambda, of_phi), factor, out, |c, lambda, own| {
-            c.slopes_of_phi(&s.slots).phi(lambda, own);
-        });
-    }
-
-    /// Adds gradients that `kernel` writes for a constraint and the multipliers of some of its
-    /// rows, times `factor`, to `out`.
-    fn add(
-        self,
-        (lambda, some): (&[f64], fn(&RowRanges) -> RowRanges),
-        factor: f64,
-        out: &mut [f64],
-        mut kernel: impl FnMut(&PlacedConstraint, &[f64], &mut [f64]),
-    ) {
-        let (mut own, mut storage) = (Vec::new(), Vec::new());
-        for (c, numbers) in self.numbered() {
-            let rows = some(&c.rows);
-            let lambda = rows.of(lambda, &mut storage);
-            if numbers.is_empty() || lambda.iter().all(|l| *l == 0.0) {
-                continue;
-            }
-            own.clear();
-            own.resize(numbers.len(), 0.0);
-            kernel(c, lambda, &mut own);
-            for (out, own) in out[numbers].iter_mut().zip(&own) {
-                *out += factor * own;
-            }
-        }
-    }
-
     /// The largest change of `λᵀ·Φ` if each datum moves by the value that `moved` returns; `lambda`
     /// has at least m values.
     #[must_use]
@@ -290,7 +244,7 @@ impl<'m> Data<'m> {
         moved: impl Fn(&DataBlock) -> f64,
     ) -> f64 {
         let mut gradient = vec![0.0; self.count()];
-        self.add_phi(s, lambda, 1.0, &mut gradient);
+        self.slopes(s).add_phi(lambda, 1.0, &mut gradient);
         let changes = blocks.iter().map(|b| b.change(&gradient, moved(b)));
         changes.sum()
     }

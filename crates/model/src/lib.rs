@@ -77,7 +77,9 @@ pub mod words;
 
 pub use agreement::{ConstraintLevel, Level, is_at_rest};
 pub use called::{BodyState, CallError, CalledWrench, DriveState, Wrench};
-pub use data::{Data, DataBlock, DataGradients, DataUnit, ForceDerivatives, SHARED, explained};
+pub use data::{
+    Data, DataBlock, DataGradients, DataSlopes, DataUnit, ForceDerivatives, SHARED, explained,
+};
 pub use description::{
     AnyDescription, Body, BodyRecord, BodyRef, DescribedBody, Description, Drive, Force, FramePose,
     Joint, MechanismDescription, Motion, SetLawError, SpatialBody, SpatialDescription,

@@ -211,14 +211,16 @@ impl Step {
         let (lambda, _) = self.velocities.split(pose, rows);
         mechanism
             .data()
-            .add_power(&self.middle, &lambda, &self.moved, -1.0, data);
+            .slopes(&self.middle)
+            .add_power(&lambda, &self.moved, -1.0, data);
         let mut turned = vec![0.0; pose.len()];
         mechanism
             .data()
             .add_power_by_pose(&self.middle, &lambda, &self.moved, &mut turned);
         pose.iter_mut().zip(&turned).for_each(|(p, t)| *p -= t);
         let (lambda, free) = self.positions.split(pose, rows);
-        mechanism.data().add_phi(&self.first, &lambda, -1.0, data);
+        let slopes = mechanism.data().slopes(&self.first);
+        slopes.add_phi(&lambda, -1.0, data);
         *pose = free;
     }
 }

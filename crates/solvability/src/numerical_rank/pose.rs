@@ -9,7 +9,7 @@
 
 use crate::limits::{HOLONOMIC, RESOLVED};
 use linalg::{Matrix, PivotedQr, RowBasis, Scaling, kernels, small_svd};
-use model::{ForceDerivatives, Mechanism, Scratch, System};
+use model::{DataSlopes, ForceDerivatives, Mechanism, Scratch, System};
 
 use super::follow::FollowedRows;
 
@@ -17,6 +17,8 @@ use super::follow::FollowedRows;
 pub(super) struct Pose<'a> {
     mechanism: &'a Mechanism,
     s: &'a Scratch,
+    /// Derivatives of its rows with respect to the data.
+    slopes: DataSlopes<'a>,
     /// Rows of the mechanism in the scaled C.
     places: &'a [usize],
     /// Factors of columns and rows from C to its scaled form.
@@ -210,6 +212,7 @@ impl<'a> Pose<'a> {
         Self {
             mechanism,
             s,
+            slopes: mechanism.data().slopes(s),
             places,
             columns,
             rows,
@@ -246,9 +249,7 @@ impl<'a> Pose<'a> {
             .map(|(u, phi)| u * phi)
             .sum();
         let mut gradient = vec![0.0; self.mechanism.data().count()];
-        self.mechanism
-            .data()
-            .add_phi(self.s, &u, 1.0, &mut gradient);
+        self.slopes.add_phi(&u, 1.0, &mut gradient);
         Some((target, gradient))
     }
 
@@ -279,15 +280,11 @@ impl<'a> Pose<'a> {
     pub(super) fn gradient_at(&self, forces: &Forces, v: &[f64]) -> Gradient {
         let v: Vec<f64> = v.iter().zip(&self.columns).map(|(x, f)| x * f).collect();
         let mut data = vec![0.0; self.mechanism.data().count()];
-        self.mechanism
-            .data()
-            .add_power(self.s, &forces.u, &v, 1.0, &mut data);
+        self.slopes.add_power(&forces.u, &v, 1.0, &mut data);
         let mut turned = vec![0.0; v.len()];
         forces.derivatives.add_power(&v, &mut turned);
         let (lambda, pose) = self.positions.split(&turned, forces.u.len());
-        self.mechanism
-            .data()
-            .add_phi(self.s, &lambda, -1.0, &mut data);
+        self.slopes.add_phi(&lambda, -1.0, &mut data);
         let onto_kept = -lambda
             .iter()
             .zip(&self.s.phi)

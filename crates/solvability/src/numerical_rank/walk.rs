@@ -151,10 +151,10 @@ fn blur(ground: &Ground<'_>, q: &[f64]) -> f64 {
     let (s, c) = ground.at(q);
     let kept = c.select_rows(&rows);
     let followed = ground.followed(&c, &rows);
-    let blocks = data.blocks(&s);
+    let (blocks, slopes) = (data.blocks(&s), data.slopes(&s));
     let gradient_of = |lambda: &[f64]| {
         let mut gradient = vec![0.0; data.count()];
-        data.add_phi(&s, lambda, 1.0, &mut gradient);
+        slopes.add_phi(lambda, 1.0, &mut gradient);
         gradient
     };
     let of_column = |column: usize| {

@@ -1,0 +1,92 @@
+//! Derivatives of the rows with respect to the numbers of the constraints at one configuration.
+
+use std::cell::OnceCell;
+
+use joints::Slopes;
+
+use super::Data;
+use crate::element::PlacedConstraint;
+use crate::rows::RowRanges;
+use crate::system::Scratch;
+
+/// The derivatives of Φ and C with respect to the numbers of the constraints at the poses of a
+/// scratch. Those of a constraint are computed when they are first needed, and kept.
+pub struct DataSlopes<'a> {
+    data: Data<'a>,
+    s: &'a Scratch,
+    phi: Vec<OnceCell<Slopes>>,
+    c: Vec<OnceCell<Slopes>>,
+}
+
+impl<'m> Data<'m> {
+    /// The derivatives of the rows with respect to all numbers of the constraints.
+    #[must_use]
+    pub fn slopes<'a>(self, s: &'a Scratch) -> DataSlopes<'a>
+    where
+        'm: 'a,
+    {
+        let empty = vec![OnceCell::new(); self.0.elements.constraints.len()];
+        DataSlopes {
+            data: self,
+            s,
+            phi: empty.clone(),
+            c: empty,
+        }
+    }
+}
+
+impl DataSlopes<'_> {
+    /// Adds the gradient of `λᵀ·C·v` with respect to all numbers of the constraints, times
+    /// `factor`, to `out`; `lambda` has m + h values, `v` n_v.
+    pub fn add_power(&self, lambda: &[f64], v: &[f64], factor: f64, out: &mut [f64]) {
+        let mut rates = Vec::new();
+        self.add(
+            (lambda, RowRanges::clone),
+            factor,
+            out,
+            |k, c, lambda, own| {
+                c.site.own_rates(v, &mut rates);
+                let slopes = self.c[k].get_or_init(|| c.slopes_of_c(&self.s.slots));
+                slopes.power(lambda, &rates, own);
+            },
+        );
+    }
+
+    /// Adds the gradient of `λᵀ·Φ` with respect to all numbers of the constraints, times `factor`,
+    /// to `out`; `lambda` has at least m values.
+    pub fn add_phi(&self, lambda: &[f64], factor: f64, out: &mut [f64]) {
+        let of_phi = |rows: &RowRanges| RowRanges {
+            holonomic: rows.holonomic.clone(),
+            nonholonomic: 0..0,
+        };
+        self.add((lambda, of_phi), factor, out, |k, c, lambda, own| {
+            let slopes = self.phi[k].get_or_init(|| c.slopes_of_phi(&self.s.slots));
+            slopes.phi(lambda, own);
+        });
+    }
+
+    /// Adds gradients that `kernel` writes for constraint k and the multipliers of some of its
+    /// rows, times `factor`, to `out`.
+    fn add(
+        &self,
+        (lambda, some): (&[f64], fn(&RowRanges) -> RowRanges),
+        factor: f64,
+        out: &mut [f64],
+        mut kernel: impl FnMut(usize, &PlacedConstraint, &[f64], &mut [f64]),
+    ) {
+        let (mut own, mut storage) = (Vec::new(), Vec::new());
+        for (k, (c, numbers)) in self.data.numbered().enumerate() {
+            let rows = some(&c.rows);
+            let lambda = rows.of(lambda, &mut storage);
+            if numbers.is_empty() || lambda.iter().all(|l| *l == 0.0) {
+                continue;
+            }
+            own.clear();
+            own.resize(numbers.len(), 0.0);
+            kernel(k, c, lambda, &mut own);
+            for (out, own) in out[numbers].iter_mut().zip(&own) {
+                *out += factor * own;
+            }
+        }
+    }
+}
