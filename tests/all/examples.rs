@@ -47,6 +47,12 @@ fn page(name: &str) -> String {
     read(&root().join(format!("examples/{name}.md")))
 }
 
+/// A text without its line ends.
+fn in_one_line(text: &str) -> String {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    words.join(" ")
+}
+
 fn study(name: &str, text: &str) -> Study {
     Study::read(name, text, &Registry::standard(), &RunOptions::default())
         .unwrap_or_else(|e| panic!("{name}: {e}"))

@@ -227,3 +227,53 @@ fn comments_are_read_without_scrolling() {
         "comments wider than {COLUMNS} columns: {wide:#?}"
     );
 }
+
+/// Markdown files of the repository that people write.
+fn pages(folder: &Path, out: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("readable").flatten() {
+        let path = entry.path();
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if path.is_dir() && name != "target" && !name.starts_with('.') {
+            pages(&path, out);
+        } else if name.ends_with(".md") && !WRITTEN_BY_PROGRAMS.contains(&name.as_str()) {
+            out.push(path);
+        }
+    }
+}
+
+/// Pages that are made by a command.
+const WRITTEN_BY_PROGRAMS: [&str; 5] = [
+    "THIRD-PARTY.md",
+    "table.md",
+    "tables.md",
+    "settings.md",
+    "report.md",
+];
+
+#[test]
+fn pages_are_wrapped() {
+    let mut files = Vec::new();
+    pages(root(), &mut files);
+    let mut wide = Vec::new();
+    for path in files {
+        let text = fs::read_to_string(&path).expect("readable");
+        let mut is_code = false;
+        for (k, line) in text.lines().enumerate() {
+            let own = line.trim_start();
+            is_code ^= own.starts_with("```");
+            // Tables, headings, HTML, links and code spans cannot be broken.
+            let may_be_wide = is_code || own.starts_with(['|', '#', '<']) || own.contains("](");
+            let ends_in_code = line
+                .rsplit(' ')
+                .next()
+                .is_some_and(|word| word.contains('`'));
+            if !may_be_wide && !ends_in_code && line.chars().count() > COLUMNS {
+                wide.push(format!("{}:{}", path.display(), k + 1));
+            }
+        }
+    }
+    assert!(
+        wide.is_empty(),
+        "lines wider than {COLUMNS} columns: {wide:#?}"
+    );
+}

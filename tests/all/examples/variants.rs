@@ -1,7 +1,7 @@
 //! Statements of the pages about variants of their scenes: an additional hinge, a guide less, a
 //! misaligned wheel.
 
-use super::{page, read, scene, study};
+use super::{in_one_line, page, read, scene, study};
 
 /// A variant of an example.
 struct Neighbour {
@@ -393,7 +393,7 @@ fn neighbours_are_as_the_pages_say() {
         expected.sort_unstable();
         assert_eq!(not_unique, expected, "{name}: {}", neighbour.said);
         assert!(
-            page(name).contains(neighbour.said),
+            in_one_line(&page(name)).contains(&in_one_line(neighbour.said)),
             "{name}: {}",
             neighbour.said
         );
